@@ -1,0 +1,58 @@
+# How every library, program and test of the project is declared: one function each, warnings as errors, C++20.
+
+option(GRAINSTEP_WERROR "Warnings are errors" ON)
+option(GRAINSTEP_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+
+add_library(grainstep_options INTERFACE)
+target_compile_features(grainstep_options INTERFACE cxx_std_20)
+target_compile_options(grainstep_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -Woverloaded-virtual -Wnull-dereference -Wduplicated-cond -Wlogical-op
+  $<$<BOOL:${GRAINSTEP_WERROR}>:-Werror>
+  # Bits must not depend on which operations a compiler fuses where.
+  -ffp-contract=off)
+if(GRAINSTEP_SANITIZE)
+  target_compile_options(grainstep_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  target_link_options(grainstep_options INTERFACE -fsanitize=address,undefined)
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g")
+
+# grainstep_library(name SOURCES ... DEPENDS ... PRIVATE_DEPENDS ...): folder = library = namespace.
+# Headers are included as "folder/file.hpp".
+function(grainstep_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  if(arg_SOURCES)
+    add_library(grainstep_${name} STATIC ${arg_SOURCES})
+    target_include_directories(grainstep_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/..)
+    target_link_libraries(grainstep_${name} PUBLIC ${arg_DEPENDS} PRIVATE grainstep_options ${arg_PRIVATE_DEPENDS})
+    target_compile_features(grainstep_${name} PUBLIC cxx_std_20)
+  else()
+    add_library(grainstep_${name} INTERFACE)
+    target_include_directories(grainstep_${name} INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/..)
+    target_link_libraries(grainstep_${name} INTERFACE ${arg_DEPENDS})
+    target_compile_features(grainstep_${name} INTERFACE cxx_std_20)
+  endif()
+  add_library(grainstep::${name} ALIAS grainstep_${name})
+endfunction()
+
+# grainstep_program(name SOURCES ... DEPENDS ...): main only wires.
+function(grainstep_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE grainstep_options ${arg_DEPENDS})
+endfunction()
+
+# grainstep_test(name SOURCES ... DEPENDS ... LABELS ... [TIMEOUT s]): one GoogleTest program, one CTest entry per TEST.
+# LABELS long keeps it out of `make test`.
+function(grainstep_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE grainstep_options ${arg_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
+    ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1")
+endfunction()
