@@ -1,0 +1,109 @@
+#include "participant/conversation.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "base/error.hpp"
+
+namespace grainstep::participant {
+namespace {
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g s", seconds);
+  return text;
+}
+
+double seconds_of(transport::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+}  // namespace
+
+bool Conversation::introduce(wire::Hello hello, wire::Role role, wire::Setup& setup) {
+  hello.set_protocol(wire::PROTOCOL_VERSION);
+  hello.set_role(role);
+  hello.set_process(static_cast<std::uint64_t>(::getpid()));
+  messages_.send(hello);
+  const wire::Frame* frame = next("Setup", options_.setup_deadline_s);
+  if (frame == nullptr) {
+    return false;
+  }
+  messages_.take(*frame, setup);
+  if (setup.protocol() != wire::PROTOCOL_VERSION) {
+    refuse("Setup names protocol version " + std::to_string(setup.protocol()) + ", this program speaks " +
+           std::to_string(wire::PROTOCOL_VERSION));
+  }
+  const auto part = role == wire::STRUCTURE ? wire::Setup::kStructure : wire::Setup::kImpactor;
+  if (setup.part_case() != part) {
+    refuse("Setup does not hold the part of the scene for this participant, role " + wire::Role_Name(role));
+  }
+  return true;
+}
+
+void Conversation::ready(wire::Ready ready, const wire::Setup& setup) {
+  ready.set_scene_hash(setup.scene_hash());
+  messages_.send(ready);
+}
+
+bool Conversation::wait_for_start(wire::Start& start) {
+  const wire::Frame* frame = next("Start", options_.setup_deadline_s);
+  if (frame == nullptr) {
+    return false;
+  }
+  messages_.take(*frame, start);
+  if (start.first_window() > start.windows()) {
+    refuse("Start begins at window " + std::to_string(start.first_window()) + " of a run of " +
+           std::to_string(start.windows()));
+  }
+  started_ = transport::Clock::now();
+  return true;
+}
+
+const wire::Frame* Conversation::wait_for_data(const std::string& kind, std::uint64_t window) {
+  const auto before = transport::Clock::now();
+  const wire::Frame* frame = next(kind + " of window " + std::to_string(window), options_.data_deadline_s);
+  waited_ += transport::Clock::now() - before;
+  return frame;
+}
+
+const wire::Frame* Conversation::next(const std::string& expected, double deadline_s) {
+  if (stopped_) {
+    return nullptr;
+  }
+  const wire::Frame* frame = messages_.receive(transport::in(std::chrono::duration<double>(deadline_s)));
+  if (frame == nullptr) {
+    refuse("expected " + expected + ", heard nothing for " + seconds_text(deadline_s));
+  }
+  if (frame->kind == wire::Envelope::kStop) {
+    stopped_ = true;
+    return nullptr;
+  }
+  return frame;
+}
+
+void Conversation::send_report(wire::Report& report) {
+  steps_ = report.timing().steps();
+  fill_timing(*report.mutable_timing());
+  send(report);
+}
+
+void Conversation::fill_timing(wire::Timing& timing) const {
+  const double waited = seconds_of(waited_);
+  const bool started = started_ != transport::Clock::time_point{};
+  timing.set_wait(waited);
+  timing.set_compute(started ? seconds_of(transport::Clock::now() - started_) - waited : 0.0);
+  timing.set_steps(steps_);
+}
+
+void Conversation::finish() {
+  if (const wire::Frame* frame = next("Stop", options_.data_deadline_s)) {
+    messages_.refuse("Stop", *frame);
+  }
+  wire::Finished finished;
+  fill_timing(*finished.mutable_timing());
+  messages_.send(finished);
+}
+
+void Conversation::refuse(const std::string& text) const { throw PeerError(messages_.peer(), text); }
+
+}  // namespace grainstep::participant

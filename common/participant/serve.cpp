@@ -1,0 +1,157 @@
+#include "participant/serve.hpp"
+
+#include <iostream>
+
+#include "base/error.hpp"
+#include "participant/conversation.hpp"
+#include "participant/schedule.hpp"
+
+namespace grainstep::participant {
+namespace {
+
+/// A wrong number of values would be an index out of range in the backend.
+void check_length(const Conversation& talk, const char* what, int found, int expected) {
+  if (found != expected) {
+    talk.refuse(std::string(what) + " holds " + std::to_string(found) + " values, expected " +
+                std::to_string(expected) + " (surface nodes times dimension)");
+  }
+}
+
+void converse(Conversation& talk, StructureBackend& backend) {
+  wire::Setup setup;
+  wire::Start start;
+  if (!talk.introduce(backend.describe(), wire::STRUCTURE, setup)) {
+    return talk.finish();
+  }
+  const wire::Ready ready = backend.prepare(setup);
+  const int values = ready.surface().position_size();
+  talk.ready(ready, setup);
+  if (!talk.wait_for_start(start)) {
+    return talk.finish();
+  }
+  backend.start(start);
+
+  wire::Forces forces;
+  wire::Kinematics next;
+  wire::Report report;
+  wire::Snapshot snapshot;
+  for (std::uint64_t window = start.first_window(); window <= start.windows(); ++window) {
+    if (!talk.wait_for(forces, window)) {
+      break;
+    }
+    check_length(talk, "Forces.impulse", forces.impulse_size(), values);
+    const Due due = due_at(start, window);
+    next.Clear();
+    next.set_window(window + 1);
+    backend.advance(forces, due, next);
+    if (window < start.windows()) {
+      talk.send(next);
+    }
+    if (due.report) {
+      report.Clear();
+      report.set_window(window);
+      backend.report(report);
+      talk.send_report(report);
+    }
+    if (due.snapshot) {
+      snapshot.Clear();
+      snapshot.set_window(window);
+      backend.snapshot(snapshot);
+      talk.send(snapshot);
+    }
+    backend.complete();
+  }
+  talk.finish();
+}
+
+class Link final : public ImpactorLink {
+ public:
+  Link(Conversation& talk, const wire::Start& start, int values) : talk_(talk), start_(start), values_(values) {}
+
+  const wire::Kinematics* surface(std::uint64_t window) override {
+    if (!talk_.wait_for(kinematics_, window)) {
+      return nullptr;
+    }
+    check_length(talk_, "Kinematics.position", kinematics_.position_size(), values_);
+    check_length(talk_, "Kinematics.velocity", kinematics_.velocity_size(), values_);
+    return &kinematics_;
+  }
+
+  Due due(std::uint64_t window) const override { return due_at(start_, window); }
+  void send(const wire::Forces& forces) override { talk_.send(forces); }
+  void send(wire::Report& report) override { talk_.send_report(report); }
+  void send(const wire::Snapshot& snapshot) override { talk_.send(snapshot); }
+
+ private:
+  Conversation& talk_;
+  const wire::Start& start_;
+  int values_;
+  wire::Kinematics kinematics_;
+};
+
+void converse(Conversation& talk, ImpactorBackend& backend) {
+  wire::Setup setup;
+  wire::Start start;
+  if (!talk.introduce(backend.describe(), wire::IMPACTOR, setup)) {
+    return talk.finish();
+  }
+  talk.ready(backend.prepare(setup), setup);
+  if (!talk.wait_for_start(start)) {
+    return talk.finish();
+  }
+  Link link(talk, start, setup.impactor().surface().position_size());
+  backend.run(start, link);
+  talk.finish();
+}
+
+struct BadEnd {
+  wire::Error::Kind kind;
+  ExitCode code;
+  std::string text;
+};
+
+/// Tells the orchestrator, if it is still there, and the person at the terminal.
+int end_badly(Conversation& talk, const ServeOptions& options, const BadEnd& end) {
+  std::ostream& errors = options.errors == nullptr ? std::cerr : *options.errors;
+  errors << "error: " << end.text << '\n' << std::flush;
+  try {
+    wire::Error error;
+    error.set_kind(end.kind);
+    error.set_text(end.text);
+    talk.send_error(error);
+  } catch (const PeerError&) {  // it is lost: that was said above, or is why we are here
+  }
+  return static_cast<int>(end.code);
+}
+
+template <class Backend>
+int serve(transport::Channel& channel, Backend& backend, const ServeOptions& options) {
+  Conversation talk(channel, options);
+  const auto bad = [&](wire::Error::Kind kind, ExitCode code, const std::exception& error) {
+    return end_badly(talk, options, {kind, code, error.what()});
+  };
+  try {
+    converse(talk, backend);
+    return static_cast<int>(ExitCode::done);
+  } catch (const InputError& error) {
+    return bad(wire::Error::BAD_INPUT, ExitCode::bad_input, error);
+  } catch (const NumericalError& error) {
+    return bad(wire::Error::NUMERICAL, ExitCode::numerical, error);
+  } catch (const PeerError& error) {
+    return bad(wire::Error::PROTOCOL, ExitCode::peer, error);
+  } catch (const std::exception& error) {
+    return bad(wire::Error::INTERNAL, ExitCode::peer, error);
+  }
+}
+
+}  // namespace
+
+int serve_structure(transport::Channel& channel, StructureBackend& backend, const ServeOptions& options) {
+  return serve(channel, backend, options);
+}
+
+int serve_impactor(transport::Channel& channel, ImpactorBackend& backend, const ServeOptions& options) {
+  return serve(channel, backend, options);
+}
+
+}  // namespace grainstep::participant

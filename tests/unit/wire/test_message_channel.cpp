@@ -1,0 +1,64 @@
+#include "wire/message_channel.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "transport/in_process_channel.hpp"
+
+namespace grainstep::wire {
+namespace {
+
+struct TwoEnds {
+  std::pair<std::unique_ptr<transport::Channel>, std::unique_ptr<transport::Channel>> channels =
+      transport::make_in_process_pair();
+  MessageChannel left{*channels.first, "right"};
+  MessageChannel right{*channels.second, "left"};
+};
+
+template <class Call>
+std::string peer_error(Call&& call) {
+  try {
+    call();
+  } catch (const PeerError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(MessageChannel, carries_messages) {
+  TwoEnds ends;
+  Forces forces;
+  forces.set_window(4);
+  forces.add_impulse(2.5);
+  ends.left.send(forces);
+  const Frame* frame = ends.right.receive(transport::in(std::chrono::seconds(10)));
+  ASSERT_NE(frame, nullptr);
+  Forces received;
+  ends.right.take(*frame, received, 4);
+  EXPECT_EQ(received.impulse(0), 2.5);
+  EXPECT_EQ(ends.right.receive(transport::Clock::now()), nullptr);
+}
+
+TEST(MessageChannel, an_order_that_is_broken_is_told_in_full) {
+  TwoEnds ends;
+  Kinematics kinematics;
+  kinematics.set_window(18);
+  ends.left.send(kinematics);
+  Error error;
+  error.set_text("element 7 inverted");
+  ends.left.send(error);
+  const auto soon = transport::in(std::chrono::seconds(10));
+  Kinematics into;
+  Ready ready;
+  const Frame* frame = ends.right.receive(soon);
+  EXPECT_EQ(peer_error([&] { ends.right.take(*frame, into, 17); }),
+            "left: message 1: expected Kinematics of window 17, got Kinematics of window 18");
+  EXPECT_EQ(peer_error([&] { ends.right.take(*frame, ready); }),
+            "left: message 1: expected Ready, got Kinematics of window 18");
+  frame = ends.right.receive(soon);
+  EXPECT_EQ(peer_error([&] { ends.right.take(*frame, into, 17); }),
+            "left: message 2: expected Kinematics of window 17, got Error: element 7 inverted");
+}
+
+}  // namespace
+}  // namespace grainstep::wire
