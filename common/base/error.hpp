@@ -1,6 +1,6 @@
 /// @file The ways in which a run can end badly, one exception class for each exit code.
-/// What a user can cause is an InputError; what the numbers do, a NumericalError; what a peer does, a PeerError.
-/// Our own bugs are assertions (assert.hpp) and are never caught.
+/// What a user can cause is an InputError; what the numbers do, a NumericalError; what a peer does, a PeerError; a full
+/// or failing disk, an OutputError. Our own bugs are assertions (assert.hpp) and are never caught.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +9,7 @@
 namespace grainstep {
 
 /// Exit codes of every program of the project.
-enum class ExitCode : int { done = 0, bad_input = 2, numerical = 3, peer = 4, interrupted = 130 };
+enum class ExitCode : int { done = 0, bad_input = 2, numerical = 3, peer = 4, output = 5, interrupted = 130 };
 
 /// The user's input cannot be computed. The text says where, what was found, what was expected and what to do.
 class InputError : public std::runtime_error {
@@ -32,6 +32,12 @@ class PeerError : public std::runtime_error {
 
  private:
   std::string peer_;
+};
+
+/// Results could not be written: no space, no permission any more, a failing disk.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 }  // namespace grainstep

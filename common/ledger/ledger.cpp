@@ -1,0 +1,87 @@
+#include "ledger/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainstep::ledger {
+namespace {
+
+Vector vector_of(const google::protobuf::RepeatedField<double>& values) {
+  Vector out{};
+  std::copy_n(values.begin(), std::min<int>(values.size(), 3), out.begin());
+  return out;
+}
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector plus(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+
+// How far `value` lies outside the interval between two ends, given in either order.
+double outside(double value, double one_end, double other_end) {
+  const auto [low, high] = std::minmax(one_end, other_end);
+  return std::max({0.0, low - value, value - high});
+}
+
+}  // namespace
+
+double energy_of(const wire::Energy& e) {
+  return e.kinetic() + e.elastic() + e.plastic() + e.damping() + e.friction() + e.viscous() - e.support_work();
+}
+
+Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps)
+    : impactor_start_(impactor.momentum()),
+      structure_start_(structure.momentum()),
+      equal_steps_(equal_steps),
+      initial_energy_(energy_of(impactor.energy()) + energy_of(structure.energy())),
+      momentum_scale_(length(plus(vector_of(impactor_start_.linear()), vector_of(structure_start_.linear())))) {}
+
+double Ledger::relative(double momentum) const {
+  // A run that starts at rest has nothing to compare with; whatever it does to momentum is then an absolute number.
+  return momentum_scale_ > 0.0 ? momentum / momentum_scale_ : momentum;
+}
+
+Closure Ledger::side(const wire::Momentum& now, const wire::Momentum& start) const {
+  Closure out;
+  out.change = minus(vector_of(now.linear()), vector_of(start.linear()));
+  out.interface = minus(vector_of(now.interface_impulse()), vector_of(start.interface_impulse()));
+  out.support = minus(vector_of(now.support_impulse()), vector_of(start.support_impulse()));
+  out.error = relative(length(minus(out.change, plus(out.interface, out.support))));
+  return out;
+}
+
+// The structure has taken up everything of the earlier windows and a part of this one's. So has the impactor if a
+// window is one step of it; otherwise its last step, half of which is still to come, can differ from the window's sum
+// by its own sign, and all that the messages say is that it is no more than a window's worth.
+double Ledger::interface_excess(const Balance& balance, const HandedOver& handed_over) const {
+  const Vector total = handed_over.total();
+  const double slack = equal_steps_ ? 0.0 : handed_over.peak;
+  Vector excess{};
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    const double taken = outside(balance.structure.interface[i], handed_over.before[i], total[i]);
+    const double low = std::min(handed_over.before[i], total[i]) - slack;
+    const double high = std::max(handed_over.before[i], total[i]) + slack;
+    excess[i] = std::max(taken, outside(-balance.impactor.interface[i], low, high));
+  }
+  return relative(length(excess));
+}
+
+Balance Ledger::close(const wire::Report& impactor, const wire::Report& structure,
+                      const HandedOver& handed_over) const {
+  Balance out;
+  out.impactor = side(impactor.momentum(), impactor_start_);
+  out.structure = side(structure.momentum(), structure_start_);
+  const Vector given = minus(Vector{}, out.impactor.interface);
+  out.in_flight = minus(given, out.structure.interface);
+  const Vector change = plus(out.impactor.change, out.structure.change);
+  const Vector supports = plus(out.impactor.support, out.structure.support);
+  const double whole = relative(length(plus(minus(change, supports), out.in_flight)));
+  out.interface_momentum = interface_excess(out, handed_over);
+  out.momentum_error = std::max({whole, out.interface_momentum, out.impactor.error, out.structure.error});
+  out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
+  out.energy_drift = initial_energy_ > 0.0 ? std::abs(out.energy - initial_energy_) / initial_energy_
+                                           : std::abs(out.energy - initial_energy_);
+  out.interface_mismatch = impactor.energy().interface_work() + structure.energy().interface_work();
+  return out;
+}
+
+}  // namespace grainstep::ledger

@@ -1,0 +1,58 @@
+/// @file Momentum and energy of the whole: both sides' reports of one window against what they started with.
+/// The equations and signs are in docs/theory/step.md. Pure: no input or output.
+#pragma once
+
+#include "grainstep/wire.pb.h"
+#include "ledger/impulse_sums.hpp"
+
+namespace grainstep::ledger {
+
+/// One side's momentum: what it should have from what it received, against what it has.
+struct Closure {
+  Vector change{};      ///< N s, momentum now minus momentum at the start
+  Vector interface {};  ///< N s, received through the surface
+  Vector support{};     ///< N s, received from supports
+  double error = 0.0;   ///< |change - interface - support| over the initial momentum
+};
+
+/// The ledgers at the end of one window. Pure numbers unless a unit is given.
+struct Balance {
+  Closure impactor;
+  Closure structure;
+  Vector in_flight{};  ///< N s: given by the impactor, not yet taken up by the structure; 0 with equal steps
+  double interface_momentum = 0.0;  ///< what the sides claim to have received, beyond what the messages carried
+  double momentum_error = 0.0;  ///< of the whole: change of both - supports - in flight, or the interface's, if larger
+  double energy = 0.0;          ///< J: kinetic, stored and dissipated of both, less the supports' work
+  double energy_drift = 0.0;    ///< |energy - initial energy| over initial energy
+  double interface_mismatch = 0.0;  ///< J: work on the structure plus work on the impactor, each as it sees it
+};
+
+/// Everything that one side still has, has lost to dissipation, or has passed to its supports, in J.
+[[nodiscard]] double energy_of(const wire::Energy& energy);
+
+class Ledger {
+ public:
+  /// The reports of window 0 (or of the window at which a run continues). `equal_steps`: one impactor step per window;
+  /// then the impactor, too, has taken up between all earlier windows' impulse and this one's.
+  Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps);
+
+  /// Both reports belong to one window, `handed_over` to the same.
+  [[nodiscard]] Balance close(const wire::Report& impactor, const wire::Report& structure,
+                              const HandedOver& handed_over) const;
+
+  [[nodiscard]] double initial_energy() const { return initial_energy_; }    ///< J
+  [[nodiscard]] double initial_momentum() const { return momentum_scale_; }  ///< N s, magnitude
+
+ private:
+  [[nodiscard]] Closure side(const wire::Momentum& now, const wire::Momentum& start) const;
+  [[nodiscard]] double interface_excess(const Balance& balance, const HandedOver& handed_over) const;
+  [[nodiscard]] double relative(double momentum) const;
+
+  wire::Momentum impactor_start_;
+  wire::Momentum structure_start_;
+  bool equal_steps_;
+  double initial_energy_;
+  double momentum_scale_;
+};
+
+}  // namespace grainstep::ledger

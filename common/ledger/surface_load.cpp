@@ -1,0 +1,86 @@
+#include "ledger/surface_load.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace grainstep::ledger {
+
+SurfaceLoad::SurfaceLoad(const wire::Surface& surface, double depth)
+    : depth_(depth), nodes_(static_cast<std::size_t>(surface.position_size()) / 2) {
+  std::vector<double> tributary(nodes_, 0.0);
+  for (int s = 0; s + 1 < surface.segment_size(); s += 2) {
+    Segment segment{};
+    for (int k = 0; k < 2; ++k) {
+      segment.node[k] = surface.segment(s + k);
+      if (segment.node[k] >= nodes_) {
+        throw InputError("surface: segment " + std::to_string(s / 2) + " names node " +
+                         std::to_string(segment.node[k]) + ", but there are positions for " + std::to_string(nodes_) +
+                         " nodes");
+      }
+    }
+    const auto at = [&](int k, int axis) { return surface.position(static_cast<int>(2 * segment.node[k]) + axis); };
+    const double tangent[2] = {at(1, 0) - at(0, 0), at(1, 1) - at(0, 1)};
+    segment.length = std::hypot(tangent[0], tangent[1]);
+    if (!(segment.length > 0.0)) {
+      throw InputError("surface: segment " + std::to_string(s / 2) + " has length " + std::to_string(segment.length));
+    }
+    segment.normal[0] = -tangent[1] / segment.length;  // the tangent turned by +90 degrees
+    segment.normal[1] = tangent[0] / segment.length;
+    segment.middle = 0.5 * (at(0, 0) + at(1, 0));
+    for (const std::size_t node : segment.node) {
+      tributary[node] += segment.length;
+    }
+    segments_.push_back(segment);
+  }
+  for (Segment& segment : segments_) {
+    for (int k = 0; k < 2; ++k) {
+      segment.share[k] = segment.length / tributary[segment.node[k]];
+    }
+  }
+}
+
+std::vector<double> SurfaceLoad::midpoints() const {
+  std::vector<double> out;
+  for (const Segment& segment : segments_) {
+    out.push_back(segment.middle);
+  }
+  return out;
+}
+
+std::vector<double> SurfaceLoad::lengths() const {
+  std::vector<double> out;
+  for (const Segment& segment : segments_) {
+    out.push_back(segment.length);
+  }
+  return out;
+}
+
+double SurfaceLoad::pressed(const Segment& segment, std::span<const double> impulse) {
+  double sum = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    const std::size_t first = 2 * segment.node[k];
+    sum -= segment.share[k] * (impulse[first] * segment.normal[0] + impulse[first + 1] * segment.normal[1]);
+  }
+  return sum;
+}
+
+std::vector<double> SurfaceLoad::impulse_per_area(std::span<const double> impulse) const {
+  std::vector<double> out;
+  out.reserve(segments_.size());
+  for (const Segment& segment : segments_) {
+    out.push_back(pressed(segment, impulse) / (segment.length * depth_));
+  }
+  return out;
+}
+
+double SurfaceLoad::normal_impulse(std::span<const double> impulse) const {
+  double sum = 0.0;
+  for (const Segment& segment : segments_) {
+    sum += pressed(segment, impulse);
+  }
+  return sum;
+}
+
+}  // namespace grainstep::ledger

@@ -1,0 +1,46 @@
+/// @file Contact pressure on the undeformed surface: (4.3) per segment and (4.4) for the whole.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "grainstep/wire.pb.h"
+
+namespace grainstep::ledger {
+
+/// The undeformed surface in two dimensions. Impulse at a node is shared among the segments that meet there in
+/// proportion to their length, so that the segments' sum is the nodes' sum.
+class SurfaceLoad {
+ public:
+  /// `depth` b in m. Throws InputError where topology and positions do not fit or a segment has no length.
+  SurfaceLoad(const wire::Surface& surface, double depth);
+
+  [[nodiscard]] std::size_t nodes() const { return nodes_; }
+  [[nodiscard]] std::size_t segments() const { return segments_.size(); }
+  [[nodiscard]] std::vector<double> midpoints() const;  ///< m, undeformed x1 of every segment's middle
+  [[nodiscard]] std::vector<double> lengths() const;    ///< m, undeformed
+
+  /// Normal impulse over undeformed area of every segment, Pa s, positive where the structure is pressed.
+  /// `impulse`: nodes x 2, N s.
+  [[nodiscard]] std::vector<double> impulse_per_area(std::span<const double> impulse) const;
+
+  /// Sum over segments of the impulse normal to the undeformed surface, N s, positive where pressed.
+  [[nodiscard]] double normal_impulse(std::span<const double> impulse) const;
+
+ private:
+  struct Segment {
+    std::size_t node[2];
+    double share[2];   // part of each node's impulse
+    double normal[2];  // outward
+    double middle;
+    double length;
+  };
+  [[nodiscard]] static double pressed(const Segment& segment, std::span<const double> impulse);
+
+  double depth_;
+  std::size_t nodes_;
+  std::vector<Segment> segments_;
+};
+
+}  // namespace grainstep::ledger

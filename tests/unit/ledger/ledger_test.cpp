@@ -1,0 +1,119 @@
+#include "ledger/ledger.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace grainstep::ledger {
+namespace {
+
+struct State {
+  double momentum;
+  double received;
+  double support = 0.0;
+};
+
+wire::Report report_of(const State& x2) {
+  wire::Report out;
+  for (const double value : {0.0, x2.momentum}) out.mutable_momentum()->add_linear(value);
+  for (const double value : {0.0, x2.received}) out.mutable_momentum()->add_interface_impulse(value);
+  for (const double value : {0.0, x2.support}) out.mutable_momentum()->add_support_impulse(value);
+  return out;
+}
+
+ImpulseSums sums_of(std::initializer_list<double> x2_of_windows) {
+  ImpulseSums sums(2);
+  for (const double x2 : x2_of_windows) {
+    sums.add(std::array{0.0, x2});
+  }
+  return sums;
+}
+
+TEST(ImpulseSums, KeepWhatCameBeforeApartFromTheLatest) {
+  ImpulseSums sums(2);
+  sums.add(std::array{1.0, -2.0, 0.5, -1.0});
+  sums.add(std::array{0.0, -4.0, 0.0, 3.0});
+  const HandedOver& h = sums.handed_over();
+  EXPECT_DOUBLE_EQ(h.before[0], 1.5);
+  EXPECT_DOUBLE_EQ(h.before[1], -3.0);
+  EXPECT_DOUBLE_EQ(h.latest[1], -1.0);
+  EXPECT_DOUBLE_EQ(h.total()[1], -4.0);
+  EXPECT_DOUBLE_EQ(h.peak, 7.0);  // |-4| + |3|, not |-1|
+}
+
+// Equal steps: windows give -1 (half a step) and -3; at t(1) both sides have taken up the first and half of the second.
+TEST(Ledger, EqualStepsCloseWithNothingInFlight) {
+  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
+  const auto sums = sums_of({-1.0, -3.0});
+  const Balance b = ledger.close(report_of({-7.5, 2.5}), report_of({-2.5, -2.5}), sums.handed_over());
+  EXPECT_EQ(b.in_flight[1], 0.0);
+  EXPECT_EQ(b.momentum_error, 0.0);
+  EXPECT_DOUBLE_EQ(b.impactor.change[1], 2.5);
+  EXPECT_DOUBLE_EQ(ledger.initial_momentum(), 10.0);
+}
+
+TEST(Ledger, SupportsAreNotAnError) {
+  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
+  const auto sums = sums_of({-1.0, -3.0});
+  const Balance b = ledger.close(report_of({-7.5, 2.5}), report_of({-1.5, -2.5, 1.0}), sums.handed_over());
+  EXPECT_EQ(b.momentum_error, 0.0);
+}
+
+// Two steps per window: the impactor has given all but half its last step (-4 + 0.5), the structure half a window.
+TEST(Ledger, UnequalStepsShowWhatIsInFlightAndDoNotCountItAsError) {
+  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), false);
+  const auto sums = sums_of({-1.0, -3.0});
+  const Balance b = ledger.close(report_of({-6.5, 3.5}), report_of({-2.5, -2.5}), sums.handed_over());
+  EXPECT_DOUBLE_EQ(b.in_flight[1], -1.0);
+  EXPECT_EQ(b.momentum_error, 0.0);
+}
+
+TEST(Ledger, MoreThanTheMessagesCarriedCannotHideInFlight) {
+  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), false);
+  const auto sums = sums_of({-1.0, -3.0});
+  const Balance b = ledger.close(report_of({-6.5, 3.5}), report_of({-0.5, -0.5}), sums.handed_over());
+  EXPECT_DOUBLE_EQ(b.interface_momentum, 0.05);  // -0.5 lies 0.5 outside [-4, -1]
+  EXPECT_DOUBLE_EQ(b.momentum_error, 0.05);
+}
+
+TEST(Ledger, LostMomentumIsAnErrorOfItsSide) {
+  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
+  const auto sums = sums_of({-1.0, -3.0});
+  const Balance b = ledger.close(report_of({-7.5, 2.5}), report_of({-2.4, -2.5}), sums.handed_over());
+  EXPECT_NEAR(b.structure.error, 0.01, 1e-15);
+  EXPECT_EQ(b.impactor.error, 0.0);
+  EXPECT_NEAR(b.momentum_error, 0.01, 1e-15);
+}
+
+TEST(Ledger, EnergyCountsEveryPartOfBothSides) {
+  auto start_i = report_of({-10.0, 0.0});
+  auto start_s = report_of({0.0, 0.0});
+  start_i.mutable_energy()->set_kinetic(100.0);
+  auto now_i = start_i;
+  auto now_s = start_s;
+  now_i.mutable_energy()->set_kinetic(40.0);
+  now_i.mutable_energy()->set_elastic(3.0);
+  now_i.mutable_energy()->set_damping(10.0);
+  now_i.mutable_energy()->set_friction(7.0);
+  now_i.mutable_energy()->set_interface_work(-41.0);
+  now_s.mutable_energy()->set_kinetic(20.0);
+  now_s.mutable_energy()->set_elastic(5.0);
+  now_s.mutable_energy()->set_plastic(12.0);
+  now_s.mutable_energy()->set_viscous(2.0);
+  now_s.mutable_energy()->set_support_work(-1.0);
+  now_s.mutable_energy()->set_interface_work(40.0);
+  const Balance b = Ledger(start_i, start_s, true).close(now_i, now_s, sums_of({0.0}).handed_over());
+  EXPECT_DOUBLE_EQ(b.energy, 100.0);
+  EXPECT_EQ(b.energy_drift, 0.0);
+  EXPECT_DOUBLE_EQ(b.interface_mismatch, -1.0);
+}
+
+TEST(Ledger, ARunAtRestHasNoScaleAndNoDivisionByZero) {
+  const auto rest = report_of({0.0, 0.0});
+  const Balance b = Ledger(rest, rest, true).close(rest, rest, sums_of({0.0}).handed_over());
+  EXPECT_EQ(b.momentum_error, 0.0);
+  EXPECT_EQ(b.energy_drift, 0.0);
+}
+
+}  // namespace
+}  // namespace grainstep::ledger

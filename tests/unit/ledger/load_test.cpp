@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "ledger/load_history.hpp"
+#include "ledger/surface_load.hpp"
+
+namespace grainstep::ledger {
+namespace {
+
+constexpr double kDepth = 0.5;
+
+// Three nodes on the x1 axis at 0, 1, 3; the structure lies below (walking towards +x1 keeps it to the right).
+wire::Surface flat() {
+  wire::Surface out;
+  for (const double x : {0.0, 0.0, 1.0, 0.0, 3.0, 0.0}) out.add_position(x);
+  for (const unsigned node : {0U, 1U, 1U, 2U}) out.add_segment(node);
+  return out;
+}
+
+TEST(SurfaceLoad, UniformPressureIsUniformOnUnequalSegments) {
+  const SurfaceLoad load(flat(), kDepth);
+  // Pressure 1 on lengths 1 and 2: consistent nodal forces b (1/2, 1/2 + 1, 1), pointing down.
+  const std::array impulse{0.0, -0.25, 0.0, -0.75, 0.0, -0.5};
+  for (const double p : load.impulse_per_area(impulse)) {
+    EXPECT_NEAR(p, 1.0, 1e-15);
+  }
+  EXPECT_NEAR(load.normal_impulse(impulse), 1.5, 1e-15);
+}
+
+TEST(SurfaceLoad, SegmentsAddUpToTheNodes) {
+  const SurfaceLoad load(flat(), kDepth);
+  const std::array impulse{7.0, -1.0, -3.0, -20.0, 2.0, 0.5};  // tangential parts do not press
+  const auto per_area = load.impulse_per_area(impulse);
+  const auto lengths = load.lengths();
+  EXPECT_NEAR(std::inner_product(per_area.begin(), per_area.end(), lengths.begin(), 0.0) * kDepth, 20.5, 1e-13);
+  EXPECT_NEAR(load.normal_impulse(impulse), 20.5, 1e-13);
+}
+
+TEST(SurfaceLoad, RefusesTopologyThatDoesNotFit) {
+  auto wrong = flat();
+  wrong.set_segment(3, 9);
+  EXPECT_THROW(SurfaceLoad(wrong, kDepth), InputError);
+  auto degenerate = flat();
+  degenerate.set_segment(3, 1);
+  EXPECT_THROW(SurfaceLoad(degenerate, kDepth), InputError);
+}
+
+// Constant force f on one node, steps of h: impulses f h / 2, then f h. What has been received at t is f t.
+TEST(LoadHistory, ConstantForceGivesLinearImpulseAtEqualSteps) {
+  const double h = 0.1;
+  LoadHistory history(SurfaceLoad(flat(), kDepth), {.window = h, .steps = 1}, 2.0);
+  history.watch(0.25);
+  history.watch(7.0);
+  for (std::uint64_t n = 0; n <= 4; ++n) {
+    const double step = n == 0 ? 0.5 * h : h;
+    history.add(n, std::array{0.0, 0.0, 0.0, -6.0 * step, 0.0, 0.0});
+    EXPECT_NEAR(history.transmitted(), 3.0 * history.time(), 1e-14);
+    EXPECT_NEAR(history.received()[3], -6.0 * history.time(), 1e-14);
+  }
+  EXPECT_NEAR(history.watched()[0], 0.75, 1e-14);
+  EXPECT_TRUE(std::isnan(history.watched()[1]));
+}
+
+TEST(LoadHistory, ConstantForceGivesLinearImpulseAtFourStepsPerWindow) {
+  const double h = 0.1;
+  LoadHistory history(SurfaceLoad(flat(), kDepth), {.window = h, .steps = 4}, 2.0);
+  for (std::uint64_t n = 0; n <= 4; ++n) {
+    const double covered = n == 0 ? 0.125 * h : h;
+    history.add(n, std::array{0.0, 0.0, 0.0, -6.0 * covered, 0.0, 0.0});
+    EXPECT_NEAR(history.transmitted(), 3.0 * history.time(), 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace grainstep::ledger
