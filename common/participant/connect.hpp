@@ -1,0 +1,30 @@
+/// @file How a participant's main finds its orchestrator: three options and one call.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "transport/channel.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace grainstep::participant {
+
+struct ConnectOptions {
+  std::string endpoint;             ///< "ipc:///path" or "tcp://host:port"
+  std::filesystem::path curve_dir;  ///< participant.key and orchestrator.pub (transport/curve.hpp); empty: plain
+  double connect_deadline_s = 30.0;
+  bool allow_plain_tcp = false;
+};
+
+/// Adds --connect (required), --curve-dir, --connect-deadline and --allow-plain-tcp.
+void add_connect_options(CLI::App& app, ConnectOptions& options);
+
+/// The channel to the orchestrator. Tries until somebody answers; PeerError (exit code 4) when nobody does within the
+/// deadline, InputError (exit code 2) for an endpoint or keys that cannot be used.
+[[nodiscard]] std::unique_ptr<transport::Channel> open(const ConnectOptions& options);
+
+}  // namespace grainstep::participant
