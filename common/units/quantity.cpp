@@ -1,0 +1,161 @@
+#include "units/quantity.hpp"
+
+#include <udunits2.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+#include "base/error.hpp"
+
+namespace grainstep::units {
+namespace {
+
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+struct FreeConverter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+using Converter = std::unique_ptr<cv_converter, FreeConverter>;
+
+/// Longer texts are not units that a person would write, and the parser need not see them.
+constexpr std::size_t longest_unit = 64;
+
+std::mutex& udunits_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// The unit database, read once; the caller holds the mutex.
+ut_system* unit_system() {
+  static ut_system* const system = [] {
+    ut_set_error_message_handler(ut_ignore);
+    return ut_read_xml(nullptr);
+  }();
+  if (system == nullptr) {
+    throw InputError(
+        "the unit database of UDUNITS-2 cannot be read: install libudunits2-data, or let UDUNITS2_XML_PATH name its "
+        "udunits2.xml");
+  }
+  return system;
+}
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+/// nullptr: not a unit. A unit here is a name: a second number ("100 200 um") or an origin ("s since 1970", "K @ 273")
+/// would scale or shift the value unseen.
+Unit parse_unit(std::string_view text) {
+  if (text.empty()) text = "1";
+  if (text.size() > longest_unit || text.find('@') != std::string_view::npos) return nullptr;
+  const bool pure_number_start =
+      (text[0] >= '0' && text[0] <= '9') || text[0] == '+' || text[0] == '-' || text[0] == '.';
+  if (pure_number_start && text != "1" && !text.starts_with("1/")) return nullptr;
+  for (const auto* const word : {"since", "after", "from", "ref"}) {
+    if (text.find(word) != std::string_view::npos) return nullptr;
+  }
+  return Unit(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
+}
+
+std::string base_units(const ut_unit* unit) {
+  std::array<char, 128> buffer{};
+  const int length = ut_format(unit, buffer.data(), buffer.size() - 1, UT_ASCII | UT_DEFINITION);
+  return length > 0 ? std::string(buffer.data()) : std::string("?");
+}
+
+/// What a quantity of this dimension is called, for messages.
+std::string dimension_name(const ut_unit* unit) {
+  struct Named {
+    const char* unit;
+    const char* name;
+  };
+  static constexpr std::array names{
+      Named{"m", "a length"},
+      Named{"s", "a time"},
+      Named{"kg", "a mass"},
+      Named{"m/s", "a speed"},
+      Named{"m/s2", "an acceleration"},
+      Named{"m2", "an area"},
+      Named{"m3", "a volume"},
+      Named{"kg/m3", "a density"},
+      Named{"kg/m2", "an areal mass"},
+      Named{"N", "a force"},
+      Named{"N/m", "a stiffness"},
+      Named{"Pa", "a pressure or stress"},
+      Named{"J", "an energy"},
+      Named{"N s", "an impulse"},
+      Named{"s-1", "a rate"},
+      Named{"Pa s", "a viscosity"},
+      Named{"K", "a temperature"},
+      Named{"1", "a pure number"},
+  };
+  for (const auto& [text, name] : names) {
+    const Unit candidate = parse_unit(text);
+    if (candidate && ut_are_convertible(unit, candidate.get()) != 0) return name;
+  }
+  return "a quantity in " + base_units(unit);
+}
+
+std::string expectation(std::string_view unit) {
+  return unit.empty() ? std::string("a pure number") : "a number with a unit of " + std::string(unit);
+}
+
+double convert(std::string_view text, const WrittenNumber& number, std::string_view unit) {
+  const std::scoped_lock lock(udunits_mutex());
+  const Unit from = parse_unit(number.unit);
+  const Unit to = parse_unit(unit);
+  const std::string quoted = "'" + std::string(text) + "'";
+  if (!to) throw InputError("'" + std::string(unit) + "' is not a unit that UDUNITS-2 knows");
+  if (!from) {
+    throw InputError(quoted + ": '" + number.unit + "' is not a unit that UDUNITS-2 knows; expected " +
+                     expectation(unit));
+  }
+  // UDUNITS would also turn a period into a rate by its reciprocal: too clever for an input file.
+  const Unit quotient(ut_divide(from.get(), to.get()));
+  const bool same_dimension = quotient && ut_is_dimensionless(quotient.get()) != 0;
+  if (!same_dimension) {
+    throw InputError(quoted + " is " + dimension_name(from.get()) + " and cannot be converted to " +
+                     (unit.empty() ? std::string("a pure number") : std::string(unit)));
+  }
+  const Converter converter(ut_get_converter(from.get(), to.get()));
+  const double value = converter ? cv_convert_double(converter.get(), number.value) : std::nan("");
+  if (!std::isfinite(value)) throw InputError(quoted + " is not finite in " + std::string(unit));
+  return value;
+}
+
+}  // namespace
+
+std::optional<WrittenNumber> split_number(std::string_view text) {
+  const std::string_view written = trim(text);
+  std::string_view digits = written;
+  if (digits.starts_with('+') && digits.size() > 1 && digits[1] != '-' && digits[1] != '+') digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc::result_out_of_range || !std::isfinite(value)) {
+    throw InputError("'" + std::string(written) + "' is not a finite number");
+  }
+  const auto used = static_cast<std::size_t>(end - digits.data());
+  return WrittenNumber{value, std::string(trim(digits.substr(used)))};
+}
+
+double parse_quantity(std::string_view text, std::string_view unit) {
+  const auto number = split_number(text);
+  if (!number) throw InputError("'" + std::string(trim(text)) + "' is not a number; expected " + expectation(unit));
+  if (number->unit.empty() || number->unit == unit) return number->value;
+  return convert(trim(text), *number, unit);
+}
+
+bool is_unit(std::string_view unit) {
+  const std::scoped_lock lock(udunits_mutex());
+  return parse_unit(unit) != nullptr;
+}
+
+}  // namespace grainstep::units
