@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 
@@ -107,6 +108,34 @@ std::string expectation(std::string_view unit) {
   return unit.empty() ? std::string("a pure number") : "a number with a unit of " + std::string(unit);
 }
 
+/// `digits` times 10^power, rounded once: the decimal point is moved in the text. nullopt: the exponent is beyond an
+/// int.
+std::optional<double> move_decimal_point(const std::string& digits, int power) {
+  const auto at = digits.find_first_of("eE");
+  int exponent = 0;
+  if (at != std::string::npos) {
+    const char* first = digits.data() + at + 1;
+    if (*first == '+') ++first;
+    const auto [end, error] = std::from_chars(first, digits.data() + digits.size(), exponent);
+    if (error != std::errc() || std::abs(exponent) > 100000) return std::nullopt;
+  }
+  const std::string moved = digits.substr(0, at) + "e" + std::to_string(exponent + power);
+  double value = 0;
+  const auto [end, error] = std::from_chars(moved.data(), moved.data() + moved.size(), value);
+  return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+double apply(const cv_converter* converter, const WrittenNumber& number) {
+  const double offset = cv_convert_double(converter, 0.0);
+  const double factor = cv_convert_double(converter, 1.0);
+  const double power = std::round(std::log10(factor));
+  // UDUNITS multiplies its prefixes out, which leaves a few units in the last place.
+  constexpr double round_off = 1e-14;
+  const bool decimal = offset == 0 && std::abs(factor / std::pow(10.0, power) - 1) < round_off;
+  const auto exact = decimal ? move_decimal_point(number.digits, static_cast<int>(power)) : std::nullopt;
+  return exact ? *exact : cv_convert_double(converter, number.value);
+}
+
 double convert(std::string_view text, const WrittenNumber& number, std::string_view unit) {
   const std::scoped_lock lock(udunits_mutex());
   const Unit from = parse_unit(number.unit);
@@ -125,7 +154,7 @@ double convert(std::string_view text, const WrittenNumber& number, std::string_v
                      (unit.empty() ? std::string("a pure number") : std::string(unit)));
   }
   const Converter converter(ut_get_converter(from.get(), to.get()));
-  const double value = converter ? cv_convert_double(converter.get(), number.value) : std::nan("");
+  const double value = converter ? apply(converter.get(), number) : std::nan("");
   if (!std::isfinite(value)) throw InputError(quoted + " is not finite in " + std::string(unit));
   return value;
 }
@@ -143,7 +172,7 @@ std::optional<WrittenNumber> split_number(std::string_view text) {
     throw InputError("'" + std::string(written) + "' is not a finite number");
   }
   const auto used = static_cast<std::size_t>(end - digits.data());
-  return WrittenNumber{value, std::string(trim(digits.substr(used)))};
+  return WrittenNumber{value, std::string(digits.substr(0, used)), std::string(trim(digits.substr(used)))};
 }
 
 double parse_quantity(std::string_view text, std::string_view unit) {

@@ -9,9 +9,10 @@
 
 namespace grainstep::units {
 
-/// "200 um" as it stands: value 200, unit "um". A bare number has an empty unit.
+/// "200 um" as it stands: value 200, digits "200", unit "um". A bare number has an empty unit.
 struct WrittenNumber {
   double value = 0;
+  std::string digits;
   std::string unit;
 };
 
@@ -20,6 +21,7 @@ struct WrittenNumber {
 [[nodiscard]] std::optional<WrittenNumber> split_number(std::string_view text);
 
 /// `text` in `unit` (UDUNITS spelling; empty: a pure number). A bare number is taken to be in `unit` already.
+/// Decimal prefixes are exact: "200 um", "0.2 mm" and "0.0002" give the same bits, hence the same scene.
 /// @throws InputError naming the text, what it is, and the unit that was expected.
 [[nodiscard]] double parse_quantity(std::string_view text, std::string_view unit);
 

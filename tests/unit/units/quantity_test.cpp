@@ -53,6 +53,19 @@ TEST(Quantity, ABareNumberAndTheOwnUnitAreExact) {
   EXPECT_EQ(parse_quantity("7300000.1 N/m", "N/m"), 7300000.1);
 }
 
+TEST(Quantity, DecimalPrefixesAreExact) {
+  EXPECT_EQ(parse_quantity("200 um", "m"), 0.0002);
+  EXPECT_EQ(parse_quantity("0.2 mm", "m"), 0.0002);
+  EXPECT_EQ(parse_quantity("2e2 um", "m"), 0.0002);
+  EXPECT_EQ(parse_quantity("2.E+2 um", "m"), 0.0002);
+  EXPECT_EQ(parse_quantity("24.1 ns", "s"), 2.41e-8);
+  EXPECT_EQ(parse_quantity("2.7 g/cm3", "kg/m^3"), 2700);
+  EXPECT_EQ(parse_quantity("470 MPa", "Pa"), 4.7e8);
+  EXPECT_EQ(parse_quantity("0e99999999999 um", "m"), 0);
+  EXPECT_DOUBLE_EQ(parse_quantity("1 inch", "m"), 0.0254);
+  EXPECT_DOUBLE_EQ(parse_quantity("20 degC", "K"), 293.15);
+}
+
 TEST(QuantityErrors, NameTheTextItsDimensionAndTheExpectedUnit) {
   EXPECT_EQ(message_of("200 um/s", "m"), "'200 um/s' is a speed and cannot be converted to m");
   EXPECT_EQ(message_of("3 m", ""), "'3 m' is a length and cannot be converted to a pure number");

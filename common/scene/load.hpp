@@ -1,0 +1,32 @@
+/// @file From a YAML file to a checked message, and back. The only place where a scene's text is read.
+///
+/// Exceptions: InputError with everything that is wrong, one line each: "file:line: path.of.key: what was found, what
+/// was expected". No text, however broken, has any other effect. Threads: safe, nothing is shared.
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "grainstep/scene.pb.h"
+
+namespace grainstep::scene {
+
+/// Reads `path` with what it includes, applies `overrides` ("a.b.0.c=VALUE") in order, and fills `message`, whose type
+/// is declared with options.proto. `message` is unchanged if an exception is thrown.
+void load(const std::filesystem::path& path, std::span<const std::string> overrides,
+          google::protobuf::Message& message);
+
+/// The same for a scene, and the rules between its keys (rules.hpp).
+[[nodiscard]] Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
+
+/// Everything `message` says, defaults included, in SI with units. Deterministic; load() gives the same message again.
+[[nodiscard]] std::string to_yaml(const google::protobuf::Message& message);
+
+/// XXH3 of the serialised scene: two participants with the same hash compute the same scene.
+[[nodiscard]] std::uint64_t scene_hash(const Scene& scene);
+
+}  // namespace grainstep::scene

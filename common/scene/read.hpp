@@ -1,0 +1,18 @@
+/// @file A Tree to any message that is declared with options.proto, by reflection.
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include <string>
+
+#include "scene/problems.hpp"
+#include "scene/tree.hpp"
+
+namespace grainstep::scene {
+
+/// Fills `message` from `tree`: every key known, of its type, within its range; required ones present; the defaults of
+/// absent ones filled in. What is wrong goes to `problems`; `message` is then incomplete.
+/// @param path of `tree` in its file, for messages; empty: the root.
+void read_message(const Tree& tree, const std::string& path, google::protobuf::Message& message, Problems& problems);
+
+}  // namespace grainstep::scene

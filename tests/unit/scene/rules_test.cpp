@@ -1,0 +1,47 @@
+#include "scene/rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scene_files.hpp"
+
+namespace grainstep::scene {
+namespace {
+
+TEST(Rules, TheReferenceSceneKeepsThem) { EXPECT_TRUE(check_rules(load_text(minimal_scene)).empty()); }
+
+TEST(Rules, AParticleFitsIntoTheSlug) {
+  EXPECT_EQ(
+      load_error(replaced(minimal_scene, "200 um", "0.21 m")),
+      "x.yaml:9: impactor.slug.particle.diameter: a particle of 0.21 m does not fit into a slug of 0.2 m by 0.3 m");
+}
+
+TEST(Rules, StepsMeet) {
+  EXPECT_EQ(load_error(minimal_scene, {"steps.structure=2.5"}),
+            "--set: steps.structure: a ratio of 2.5 to the impactor's step: the two sides would never meet; expected a "
+            "whole number or one over a whole number");
+  EXPECT_EQ(
+      load_error(minimal_scene, {"steps.structure=30 ns", "steps.impactor=20 ns"}),
+      "--set: steps.structure: is 1.5 times the impactor's step: the two sides would never meet; expected a whole "
+      "number of steps of one in a step of the other");
+  for (const auto* const ratio : {"1", "3", "0.5", "0.3333333"}) {
+    EXPECT_EQ(load_error(minimal_scene, {std::string("steps.structure=") + ratio}), "accepted") << ratio;
+  }
+  EXPECT_EQ(load_error(minimal_scene, {"steps.structure=60 ns", "steps.impactor=20 ns"}), "accepted");
+}
+
+TEST(Rules, AStepFitsIntoTheRun) {
+  EXPECT_EQ(load_error(minimal_scene, {"time.end=1 ms", "steps.impactor=2 ms"}),
+            "--set: steps.impactor: a step of 0.002 s is longer than the whole run (time.end is 0.001 s)");
+}
+
+TEST(Rules, WarningsDoNotStopARun) {
+  const auto findings =
+      check_rules(load_text(minimal_scene, {"impactor.slug.half_width=0.6", "impactor.slug.speed=0"}));
+  ASSERT_EQ(findings.size(), 2);
+  EXPECT_EQ(findings[0].severity, Severity::warning);
+  EXPECT_EQ(findings[0].path, "impactor.slug.half_width");
+  EXPECT_EQ(findings[1].path, "impactor.slug.speed");
+}
+
+}  // namespace
+}  // namespace grainstep::scene
