@@ -1,0 +1,39 @@
+#include "process/interrupt.hpp"
+
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace grainstep::process {
+
+Interrupt::Interrupt() {
+  sigset_t watched;
+  sigemptyset(&watched);
+  sigaddset(&watched, SIGINT);
+  sigaddset(&watched, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &watched, &before_);
+  descriptor_ = ::signalfd(-1, &watched, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (descriptor_ < 0) {
+    const int error = errno;
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    throw std::system_error(error, std::generic_category(), "signalfd");
+  }
+}
+
+Interrupt::~Interrupt() {
+  ::close(descriptor_);
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+bool Interrupt::raised() {
+  signalfd_siginfo info{};
+  if (!raised_ && ::read(descriptor_, &info, sizeof info) == sizeof info) {
+    raised_ = true;
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);  // the second one means it
+  }
+  return raised_;
+}
+
+}  // namespace grainstep::process

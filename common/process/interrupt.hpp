@@ -1,0 +1,30 @@
+/// @file Ctrl-C and SIGTERM as something to poll() for, so that a run can be ended in good order.
+#pragma once
+
+#include <signal.h>
+
+namespace grainstep::process {
+
+/// While it lives, the first SIGINT or SIGTERM makes descriptor() readable instead of ending the process; once raised()
+/// has seen it, the next one ends the process at once. Make it in the main thread before any other thread starts:
+/// threads inherit which signals are blocked. One per process.
+class Interrupt {
+ public:
+  Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+  ~Interrupt();
+
+  /// For poll(). Edge: stays readable until raised() is called.
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+
+  /// Whether a signal has come since this object was made. Does not wait.
+  [[nodiscard]] bool raised();
+
+ private:
+  int descriptor_ = -1;
+  bool raised_ = false;
+  sigset_t before_{};
+};
+
+}  // namespace grainstep::process
