@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ledger/observables.hpp"
+
 namespace grainstep::ledger {
 namespace {
 
@@ -80,7 +82,9 @@ Balance Ledger::close(const wire::Report& impactor, const wire::Report& structur
   out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
   out.energy_drift = initial_energy_ > 0.0 ? std::abs(out.energy - initial_energy_) / initial_energy_
                                            : std::abs(out.energy - initial_energy_);
-  out.interface_mismatch = impactor.energy().interface_work() + structure.energy().interface_work();
+  // Work on particles and work on the surface differ by what the contacts between them dissipate and store.
+  const double given_work = find(impactor, observable::work_on_surface).value_or(-impactor.energy().interface_work());
+  out.interface_mismatch = given_work - structure.energy().interface_work();
   return out;
 }
 

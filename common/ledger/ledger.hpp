@@ -24,7 +24,7 @@ struct Balance {
   double momentum_error = 0.0;  ///< of the whole: change of both - supports - in flight, or the interface's, if larger
   double energy = 0.0;          ///< J: kinetic, stored and dissipated of both, less the supports' work
   double energy_drift = 0.0;    ///< |energy - initial energy| over initial energy
-  double interface_mismatch = 0.0;  ///< J: work on the structure plus work on the impactor, each as it sees it
+  double interface_mismatch = 0.0;  ///< J: work on the surface as the impactor sees it, less as the structure does
 };
 
 /// Everything that one side still has, has lost to dissipation, or has passed to its supports, in J.

@@ -105,7 +105,12 @@ TEST(Ledger, EnergyCountsEveryPartOfBothSides) {
   const Balance b = Ledger(start_i, start_s, true).close(now_i, now_s, sums_of({0.0}).handed_over());
   EXPECT_DOUBLE_EQ(b.energy, 100.0);
   EXPECT_EQ(b.energy_drift, 0.0);
-  EXPECT_DOUBLE_EQ(b.interface_mismatch, -1.0);
+  EXPECT_DOUBLE_EQ(b.interface_mismatch, 1.0);  // without the observable: 41 - 40
+  auto* seen = now_i.add_observable();
+  seen->set_name("work_on_surface");
+  seen->set_value(39.5);
+  const Balance with = Ledger(start_i, start_s, true).close(now_i, now_s, sums_of({0.0}).handed_over());
+  EXPECT_DOUBLE_EQ(with.interface_mismatch, -0.5);
 }
 
 TEST(Ledger, ARunAtRestHasNoScaleAndNoDivisionByZero) {

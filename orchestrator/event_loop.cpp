@@ -1,0 +1,40 @@
+#include "orchestrator/event_loop.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+
+#include "base/assert.hpp"
+
+namespace grainstep::orchestrator {
+
+void EventLoop::add(int fd, Action action) { sources_.push_back({fd, std::move(action)}); }
+
+void EventLoop::add(const transport::Channel& channel) {
+  GS_ASSERT(channel.wakeup() >= 0, "the orchestrator needs channels that can be polled");
+  sources_.push_back({channel.wakeup(), nullptr});
+}
+
+void EventLoop::wait(transport::Deadline deadline) {
+  using std::chrono::milliseconds;
+  const auto left = std::chrono::ceil<milliseconds>(deadline - transport::Clock::now());
+  const int timeout = static_cast<int>(std::clamp(left, milliseconds(0), milliseconds(1000)).count());
+  std::vector<pollfd> fds;
+  for (const Source& source : sources_) {
+    fds.push_back({.fd = source.fd, .events = POLLIN, .revents = 0});
+  }
+  const int ready = ::poll(fds.data(), fds.size(), timeout);
+  if (ready < 0 && errno != EINTR) {
+    throw std::system_error(errno, std::generic_category(), "poll");
+  }
+  for (std::size_t i = 0; ready > 0 && i < fds.size(); ++i) {
+    if (fds[i].revents != 0 && sources_[i].action) {
+      sources_[i].action();
+    }
+  }
+}
+
+}  // namespace grainstep::orchestrator

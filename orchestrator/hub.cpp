@@ -1,0 +1,53 @@
+#include "orchestrator/hub.hpp"
+
+namespace grainstep::orchestrator {
+
+Hub::Hub(transport::Channel& impactor, transport::Channel& structure, EventLoop& loop, Watchdog watchdog)
+    : impactor_(wire::IMPACTOR, impactor),
+      structure_(wire::STRUCTURE, structure),
+      loop_(loop),
+      watchdog_(std::move(watchdog)) {
+  loop_.add(impactor);
+  loop_.add(structure);
+}
+
+bool Hub::take_one(Peer& peer, const Handler& handler) {
+  const wire::Frame* frame = peer.messages.receive(transport::Clock::now());
+  if (frame == nullptr) {
+    return false;
+  }
+  peer.heard = transport::Clock::now();
+  if (frame->kind == wire::Envelope::kError) {
+    peer.finished = true;  // an Error is a participant's last message
+    throw_error_of(peer, *frame);
+  }
+  handler(peer, *frame);
+  return true;
+}
+
+bool Hub::run(const Handler& handler, const Done& done, const Until& deadline) {
+  while (true) {
+    // A channel's wake-up is an edge, and sending may swallow it: wait only after both channels said "nothing" in turn.
+    bool again = true;
+    while (again) {
+      again = false;
+      for (Peer* peer : {&impactor_, &structure_}) {
+        // A finished peer has closed its end: to ask it for more would be taken for a loss.
+        again = (!peer->finished && take_one(*peer, handler)) || again;
+        if (done()) {
+          return true;
+        }
+      }
+    }
+    if (watchdog_) {
+      watchdog_();
+    }
+    const transport::Deadline until = deadline();
+    if (transport::Clock::now() >= until) {
+      return false;
+    }
+    loop_.wait(until);
+  }
+}
+
+}  // namespace grainstep::orchestrator

@@ -1,0 +1,46 @@
+/// @file Both conversations at once: takes messages as they come and hands them to whoever drives the phase.
+#pragma once
+
+#include <functional>
+
+#include "orchestrator/event_loop.hpp"
+#include "orchestrator/peer.hpp"
+
+namespace grainstep::orchestrator {
+
+struct Deadlines {
+  double connect_s = 30.0;  ///< until both sides have said Hello
+  double step_s = 300.0;    ///< of silence from the side that is waited for
+  double stop_s = 2.0;      ///< for the answers to Stop after a failure
+};
+
+/// Called between messages and waits; throws PeerError when a participant's process has ended before its time.
+using Watchdog = std::function<void()>;
+
+class Hub {
+ public:
+  /// Channels outlive the hub. `loop` may have other sources; their actions may throw through every wait.
+  Hub(transport::Channel& impactor, transport::Channel& structure, EventLoop& loop, Watchdog watchdog = {});
+
+  [[nodiscard]] Peer& impactor() { return impactor_; }
+  [[nodiscard]] Peer& structure() { return structure_; }
+  [[nodiscard]] Peer& other(const Peer& peer) { return &peer == &impactor_ ? structure_ : impactor_; }
+
+  using Handler = std::function<void(Peer&, const wire::Frame&)>;
+  using Done = std::function<bool()>;
+  using Until = std::function<transport::Deadline()>;
+
+  /// Hands every message to `handler` until `done` (true) or until the deadline, which is asked for anew before every
+  /// wait, has passed (false). An Error of a participant becomes the exception it stands for.
+  bool run(const Handler& handler, const Done& done, const Until& deadline);
+
+ private:
+  bool take_one(Peer& peer, const Handler& handler);
+
+  Peer impactor_;
+  Peer structure_;
+  EventLoop& loop_;
+  Watchdog watchdog_;
+};
+
+}  // namespace grainstep::orchestrator

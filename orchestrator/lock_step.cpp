@@ -1,0 +1,164 @@
+#include "orchestrator/lock_step.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "ledger/message_numbers.hpp"
+#include "participant/schedule.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+void require_finite(const Peer& peer, const char* what, std::uint64_t window,
+                    const google::protobuf::RepeatedField<double>& values) {
+  for (int i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      throw NumericalError(peer.name() + ": " + what + " of window " + std::to_string(window) + ": value " +
+                           std::to_string(i) + " is " + std::to_string(values[i]) +
+                           ". The computation has become unstable: try smaller steps.");
+    }
+  }
+}
+
+}  // namespace
+
+LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s)
+    : hub_(hub),
+      observer_(observer),
+      start_(start),
+      silence_s_(silence_s),
+      values_(hub.structure().ready.surface().position_size()),
+      next_forces_(start.first_window()) {
+  for (Extra* side : {&impactor_, &structure_}) {
+    side->next_report = start.first_window();
+    side->last_snapshot = start.snapshot_every() == 0;
+  }
+}
+
+void LockStep::run() {
+  const auto now = transport::Clock::now();
+  hub_.impactor().heard = now;
+  hub_.structure().heard = now;
+  const auto deadline = [this] {
+    observer_.idle();
+    return waited_for().heard + std::chrono::duration_cast<transport::Clock::duration>(
+                                    std::chrono::duration<double>(silence_s_));
+  };
+  if (!hub_.run([this](Peer& peer, const wire::Frame& frame) { handle(peer, frame); }, [this] { return done(); },
+                deadline)) {
+    throw PeerError(waited_for().name(), "said nothing for " + std::to_string(static_cast<int>(silence_s_)) +
+                                             " s at window " + std::to_string(next_forces_) + " of " +
+                                             std::to_string(start_.windows()) +
+                                             ". If its steps take that long, raise --step-deadline.");
+  }
+}
+
+const Peer& LockStep::waited_for() const {
+  if (structure_owes_) {
+    return hub_.structure();
+  }
+  if (next_forces_ <= start_.windows()) {
+    return hub_.impactor();
+  }
+  return impactor_.last_report && impactor_.last_snapshot ? hub_.structure() : hub_.impactor();
+}
+
+bool LockStep::done() const {
+  return next_forces_ > start_.windows() && impactor_.last_report && impactor_.last_snapshot &&
+         structure_.last_report && structure_.last_snapshot;
+}
+
+void LockStep::handle(Peer& peer, const wire::Frame& frame) {
+  if (frame.kind == wire::Envelope::kForces && peer.role == wire::IMPACTOR) {
+    on_forces(frame);
+  } else if (frame.kind == wire::Envelope::kKinematics && peer.role == wire::STRUCTURE) {
+    on_kinematics(frame);
+  } else if (frame.kind == wire::Envelope::kReport) {
+    on_report(peer, frame);
+  } else if (frame.kind == wire::Envelope::kSnapshot) {
+    on_snapshot(peer, frame);
+  } else {
+    peer.messages.refuse(peer.role == wire::IMPACTOR ? "Forces, Report or Snapshot" : "Kinematics, Report or Snapshot",
+                         frame);
+  }
+}
+
+void LockStep::require_size(const Peer& peer, const char* what, std::uint64_t window, int found) const {
+  if (found != values_) {
+    throw PeerError(peer.name(), std::string(what) + " of window " + std::to_string(window) + " holds " +
+                                     std::to_string(found) + " values, the surface has " + std::to_string(values_));
+  }
+}
+
+void LockStep::on_forces(const wire::Frame& frame) {
+  Peer& impactor = hub_.impactor();
+  if (structure_owes_ || next_forces_ > start_.windows() || wire::window_of(frame) != next_forces_) {
+    impactor.messages.refuse(structure_owes_ ? "no Forces before the Kinematics of window " +
+                                                   std::to_string(next_forces_) + " were sent"
+                                             : "Forces of window " + std::to_string(next_forces_),
+                             frame);
+  }
+  hub_.structure().messages.forward(frame);
+  hub_.structure().heard = transport::Clock::now();
+  const std::uint64_t window = next_forces_++;
+  structure_owes_ = window < start_.windows();
+  impactor.messages.take(frame, forces_, window);
+  require_size(impactor, "Forces", window, forces_.impulse_size());
+  require_finite(impactor, "Forces", window, forces_.impulse());
+  observer_.forces(forces_);
+}
+
+void LockStep::on_kinematics(const wire::Frame& frame) {
+  Peer& structure = hub_.structure();
+  if (!structure_owes_ || wire::window_of(frame) != next_forces_) {
+    structure.messages.refuse(structure_owes_ ? "Kinematics of window " + std::to_string(next_forces_)
+                                              : std::string("no Kinematics before the next Forces were sent"),
+                              frame);
+  }
+  hub_.impactor().messages.forward(frame);
+  hub_.impactor().heard = transport::Clock::now();
+  structure_owes_ = false;
+  structure.messages.take(frame, kinematics_, next_forces_);
+  require_size(structure, "position in Kinematics", next_forces_, kinematics_.position_size());
+  require_size(structure, "velocity in Kinematics", next_forces_, kinematics_.velocity_size());
+  require_finite(structure, "position in Kinematics", next_forces_, kinematics_.position());
+  require_finite(structure, "velocity in Kinematics", next_forces_, kinematics_.velocity());
+}
+
+// The next window after `window` at which a report, or else a snapshot, is due.
+std::uint64_t LockStep::next_due(std::uint64_t window, bool report) const {
+  const std::uint64_t every = report ? start_.report_every() : start_.snapshot_every();
+  const std::uint64_t next = every == 0 ? start_.windows() + 1 : (window / every + 1) * every;
+  return report ? std::min(next, start_.windows()) : next;
+}
+
+void LockStep::on_report(Peer& peer, const wire::Frame& frame) {
+  Extra& side = extra(peer);
+  if (side.last_report) {
+    peer.messages.refuse("no further Report", frame);
+  }
+  peer.messages.take(frame, report_, side.next_report);
+  if (const auto found = ledger::first_not_finite(report_)) {
+    throw NumericalError(peer.name() + ": report of window " + std::to_string(report_.window()) + ": " + *found +
+                         ". The computation has become unstable: try smaller steps.");
+  }
+  side.last_report = side.next_report == start_.windows();
+  side.next_report = next_due(side.next_report, true);
+  peer.timing = report_.timing();
+  observer_.report(peer.role, report_);
+}
+
+void LockStep::on_snapshot(Peer& peer, const wire::Frame& frame) {
+  Extra& side = extra(peer);
+  if (side.last_snapshot) {
+    peer.messages.refuse("no further Snapshot", frame);
+  }
+  wire::Snapshot snapshot;
+  peer.messages.take(frame, snapshot, side.next_snapshot);
+  side.next_snapshot = next_due(side.next_snapshot, false);
+  side.last_snapshot = side.next_snapshot > start_.windows();
+  observer_.snapshot(peer.role, snapshot);
+}
+
+}  // namespace grainstep::orchestrator

@@ -1,0 +1,53 @@
+/// @file The lock step: forces one way, kinematics the other, window after window (docs/theory/step.md).
+#pragma once
+
+#include <cstdint>
+
+#include "orchestrator/hub.hpp"
+#include "orchestrator/step_observer.hpp"
+
+namespace grainstep::orchestrator {
+
+/// Runs from Start to the last report of both sides. Throws PeerError for silence, messages out of order or of the wrong
+/// size; NumericalError for numbers that are not finite; what the observer throws.
+class LockStep {
+ public:
+  LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s);
+
+  void run();
+
+ private:
+  void handle(Peer& peer, const wire::Frame& frame);
+  void on_forces(const wire::Frame& frame);
+  void on_kinematics(const wire::Frame& frame);
+  void on_report(Peer& peer, const wire::Frame& frame);
+  void on_snapshot(Peer& peer, const wire::Frame& frame);
+  void require_size(const Peer& peer, const char* what, std::uint64_t window, int found) const;
+  [[nodiscard]] bool done() const;
+  [[nodiscard]] const Peer& waited_for() const;
+
+  /// What of the extra output has come from one side.
+  struct Extra {
+    std::uint64_t next_report = 0;
+    std::uint64_t next_snapshot = 0;
+    bool last_report = false;
+    bool last_snapshot = false;
+  };
+  Extra& extra(const Peer& peer) { return peer.role == wire::IMPACTOR ? impactor_ : structure_; }
+  [[nodiscard]] std::uint64_t next_due(std::uint64_t window, bool report) const;
+
+  Hub& hub_;
+  StepObserver& observer_;
+  wire::Start start_;
+  double silence_s_;
+  int values_;                         // nodes x dimension of the surface
+  std::uint64_t next_forces_;          // window of the Forces that come next
+  Extra impactor_;
+  Extra structure_;
+  wire::Forces forces_;  // kept: their capacity is reused
+  wire::Kinematics kinematics_;
+  wire::Report report_;
+  bool structure_owes_ = false;  // Forces were forwarded, the Kinematics they lead to are not here yet
+};
+
+}  // namespace grainstep::orchestrator

@@ -1,0 +1,177 @@
+#include "orchestrator/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "ledger/observables.hpp"
+#include "participant/schedule.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+constexpr auto burst_interval = std::chrono::seconds(1);
+constexpr std::size_t burst_bytes = 64U << 20U;
+constexpr double early_from = 0.05;  // t_hat
+constexpr double early_to = 0.3;     // t_hat
+
+bool is_half(const scene::Scene& scene) { return scene.structure().extent() == scene::Structure::EXTENT_HALF; }
+
+// 2 a b of (4.4), or the half of it that is modelled.
+double loaded_area(const scene::Scene& scene) {
+  return (is_half(scene) ? 1.0 : 2.0) * scene.impactor().slug().half_width() * scene.depth();
+}
+
+std::span<const double> span_of(const google::protobuf::RepeatedField<double>& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+}  // namespace
+
+Recorder::Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
+                   std::function<void(std::uint64_t)> tick)
+    : scene_(context.scene),
+      groups_(context.groups),
+      plan_(context.plan),
+      start_(context.plan.start()),
+      file_(file),
+      snapshots_(directory, file),
+      tick_(std::move(tick)),
+      sums_(2),
+      load_(ledger::SurfaceLoad(context.surface, context.scene.depth()),
+            {.window = context.plan.window, .steps = context.plan.impactor_steps}, loaded_area(context.scene)),
+      flushed_(transport::Clock::now()) {
+  load_.watch(early_from * groups_.slug_time);
+  load_.watch(early_to * groups_.slug_time);
+  profile_mark_.assign(2 * load_.surface().nodes(), 0.0);
+  file_.add(results::Array{.dataset = "/profiles/x1",
+                           .meaning = {"m", "undeformed x1 of every segment's middle"},
+                           .values = load_.surface().midpoints(),
+                           .indices = {}});
+  file_.add(results::Array{.dataset = "/profiles/length",
+                           .meaning = {"m", "undeformed length of every segment"},
+                           .values = load_.surface().lengths(),
+                           .indices = {}});
+}
+
+void Recorder::forces(const wire::Forces& forces) {
+  const auto impulse = span_of(forces.impulse());
+  const std::uint64_t window = forces.window();
+  sums_.add(impulse);
+  load_.add(window, impulse);
+  findings_.windows = window;
+  if (participant::due_at(start_, window).report) {
+    Pending& row = pending_[window];
+    row.handed_over = sums_.handed_over();
+    row.transmitted = load_.transmitted();
+  }
+  const bool last = window == plan_.windows;
+  if (plan_.profile_every != 0 && window != 0 && (window % plan_.profile_every == 0 || last)) {
+    write_profile(window);
+  }
+}
+
+// (4.3), averaged over the interval since the last profile.
+void Recorder::write_profile(std::uint64_t window) {
+  const std::vector<double> received = load_.received();
+  std::vector<double> gained(received.size());
+  std::transform(received.begin(), received.end(), profile_mark_.begin(), gained.begin(), std::minus<>());
+  results::Line line{.dataset = "/profiles/pressure",
+                     .meaning = {"Pa", "contact pressure on every segment, averaged over the interval (4.3)"},
+                     .values = load_.surface().impulse_per_area(gained)};
+  const double from = time_of(profile_window_);
+  const double to = time_of(window);
+  for (double& value : line.values) {
+    value /= to - from;
+  }
+  file_.add(line);
+  file_.add({{.dataset = "/profiles/from", .meaning = {"s", "start of the interval"}, .value = from},
+             {.dataset = "/profiles/to", .meaning = {"s", "end of the interval"}, .value = to}});
+  profile_mark_ = received;
+  profile_window_ = window;
+}
+
+void Recorder::report(wire::Role side, const wire::Report& report) {
+  Pending& row = pending_[report.window()];
+  (side == wire::IMPACTOR ? row.impactor : row.structure) = report;
+  complete_rows();
+}
+
+void Recorder::complete_rows() {
+  while (!pending_.empty()) {
+    const auto& [window, row] = *pending_.begin();
+    if (!row.impactor || !row.structure) {
+      return;
+    }
+    write_row(window, row);
+    pending_.erase(pending_.begin());
+  }
+}
+
+void Recorder::write_row(std::uint64_t window, const Pending& row) {
+  if (!ledger_) {
+    ledger_.emplace(*row.impactor, *row.structure, plan_.impactor_steps == 1);
+  }
+  const ledger::Balance balance = ledger_->close(*row.impactor, *row.structure, row.handed_over);
+  const double time = time_of(window);
+  const double elapsed = time - row_time_;
+  const RowData data{.time = time,
+                     .mean_pressure = elapsed > 0.0 ? (row.transmitted - row_transmitted_) / elapsed : 0.0,
+                     .transmitted = row.transmitted,
+                     .impactor = *row.impactor,
+                     .structure = *row.structure,
+                     .balance = balance};
+  file_.add(series_row(data, groups_));
+  file_.add(ledger_row(data));
+  file_.add(timing_row(data));
+  row_time_ = time;
+  row_transmitted_ = row.transmitted;
+  remember(window, row, balance);
+  judge(window, row, balance);
+}
+
+void Recorder::remember(std::uint64_t window, const Pending& row, const ledger::Balance& balance) {
+  findings_.final_time = time_of(window);
+  findings_.transmitted = row.transmitted;
+  findings_.energy_drift = std::max(findings_.energy_drift, balance.energy_drift);
+  findings_.momentum_error = std::max(findings_.momentum_error, balance.momentum_error);
+  findings_.peak_deflection = ledger::find(*row.structure, ledger::observable::peak_deflection).value_or(0.0);
+  findings_.peak_deflection_time = ledger::find(*row.structure, ledger::observable::peak_deflection_time).value_or(0.0);
+  findings_.impactor_steps = row.impactor->timing().steps();
+  findings_.structure_steps = row.structure->timing().steps();
+  const double early = load_.watched()[1] - load_.watched()[0];
+  if (std::isfinite(early)) {
+    findings_.early_impulse = early;
+  }
+}
+
+void Recorder::judge(std::uint64_t window, const Pending& row, const ledger::Balance& balance) const {
+  const auto found = ledger::violation(
+      scene_.guards(), {.balance = balance,
+                        .overlap = ledger::find(*row.impactor, ledger::observable::overlap),
+                        .element_quality = ledger::find(*row.structure, ledger::observable::element_quality)});
+  if (found) {
+    throw NumericalError("at window " + std::to_string(window) + " of " + std::to_string(plan_.windows) + " (t_bar " +
+                         std::to_string(time_of(window) / groups_.reference_time) + "): " + *found);
+  }
+}
+
+void Recorder::snapshot(wire::Role side, const wire::Snapshot& snapshot) {
+  snapshots_.add(side, time_of(snapshot.window()), snapshot);
+}
+
+void Recorder::idle() {
+  const auto now = transport::Clock::now();
+  if (now - flushed_ >= burst_interval || file_.pending_bytes() > burst_bytes) {
+    file_.flush();
+    flushed_ = transport::Clock::now();
+  }
+  if (tick_) {
+    tick_(findings_.windows);
+  }
+}
+
+void Recorder::finish() { file_.flush(); }
+
+}  // namespace grainstep::orchestrator

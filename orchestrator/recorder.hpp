@@ -1,0 +1,92 @@
+/// @file Turns what passes by into results: the only writer of a run, and the one who looks after its limits.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "ledger/guards.hpp"
+#include "ledger/ledger.hpp"
+#include "ledger/load_history.hpp"
+#include "orchestrator/row.hpp"
+#include "orchestrator/step_observer.hpp"
+#include "orchestrator/step_plan.hpp"
+#include "results/results_file.hpp"
+#include "results/snapshots.hpp"
+#include "scene/groups.hpp"
+#include "transport/channel.hpp"
+
+namespace grainstep::orchestrator {
+
+/// What a summary needs to know of a run, whole or not.
+struct Findings {
+  double final_time = 0.0;             ///< s, of the last row
+  double energy_drift = 0.0;           ///< largest of the rows
+  double momentum_error = 0.0;         ///< largest of the rows
+  double transmitted = 0.0;            ///< Pa s, at the last row
+  std::optional<double> early_impulse; ///< Pa s, between t_hat 0.05 and 0.3
+  double peak_deflection = 0.0;        ///< m
+  double peak_deflection_time = 0.0;   ///< s
+  std::uint64_t windows = 0;           ///< seen
+  std::uint64_t impactor_steps = 0;
+  std::uint64_t structure_steps = 0;
+};
+
+class Recorder final : public StepObserver {
+ public:
+  struct Context {
+    const scene::Scene& scene;
+    const scene::Groups& groups;
+    const StepPlan& plan;
+    const wire::Surface& surface;
+  };
+  /// `tick` is called when the run has a moment, with the windows seen so far. References must outlive the recorder.
+  Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
+           std::function<void(std::uint64_t)> tick);
+
+  void forces(const wire::Forces& forces) override;
+  void report(wire::Role side, const wire::Report& report) override;
+  void snapshot(wire::Role side, const wire::Snapshot& snapshot) override;
+  void idle() override;
+
+  /// Writes whatever is left. Call at every end of a run.
+  void finish();
+
+  [[nodiscard]] const Findings& findings() const { return findings_; }
+
+ private:
+  /// What a row waits for.
+  struct Pending {
+    ledger::HandedOver handed_over;
+    double transmitted = 0.0;
+    std::optional<wire::Report> impactor;
+    std::optional<wire::Report> structure;
+  };
+  [[nodiscard]] double time_of(std::uint64_t window) const { return static_cast<double>(window) * plan_.window; }
+  void complete_rows();
+  void write_row(std::uint64_t window, const Pending& row);
+  void judge(std::uint64_t window, const Pending& row, const ledger::Balance& balance) const;
+  void remember(std::uint64_t window, const Pending& row, const ledger::Balance& balance);
+  void write_profile(std::uint64_t window);
+
+  const scene::Scene& scene_;
+  const scene::Groups& groups_;
+  StepPlan plan_;
+  wire::Start start_;
+  results::ResultsFile& file_;
+  results::Snapshots snapshots_;
+  std::function<void(std::uint64_t)> tick_;
+  ledger::ImpulseSums sums_;
+  ledger::LoadHistory load_;
+  std::optional<ledger::Ledger> ledger_;
+  std::map<std::uint64_t, Pending> pending_;
+  double row_time_ = 0.0;         // of the last row
+  double row_transmitted_ = 0.0;  // at the last row
+  std::uint64_t profile_window_ = 0;
+  std::vector<double> profile_mark_;  // nodal impulse received up to the last profile
+  transport::Clock::time_point flushed_;
+  Findings findings_;
+};
+
+}  // namespace grainstep::orchestrator

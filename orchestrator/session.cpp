@@ -1,0 +1,181 @@
+#include "orchestrator/session.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "orchestrator/lock_step.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+using seconds = std::chrono::duration<double>;
+
+Hub::Until at(transport::Deadline deadline) {
+  return [deadline] { return deadline; };
+}
+
+}  // namespace
+
+void Session::check_hello(const Peer& peer) const {
+  const wire::Hello& hello = peer.hello;
+  const auto refuse = [&](const std::string& text) { throw PeerError(peer.name(), hello.backend() + ": " + text); };
+  if (hello.protocol() != wire::PROTOCOL_VERSION) {
+    refuse("speaks protocol version " + std::to_string(hello.protocol()) + ", this program version " +
+           std::to_string(wire::PROTOCOL_VERSION) + ": update the older one");
+  }
+  if (hello.role() != peer.role) {
+    refuse("says that it is the " + wire::Role_Name(hello.role()) + ", the " + wire::Role_Name(peer.role) +
+           " was expected: it was started with the other side's address");
+  }
+  if (hello.dimension() != 2) {
+    refuse("computes in " + std::to_string(hello.dimension()) + " dimensions, the scene has 2");
+  }
+}
+
+void Session::introduce() {
+  const auto handler = [this](Peer& peer, const wire::Frame& frame) {
+    peer.messages.take(frame, peer.hello);
+    check_hello(peer);
+    peer.introduced = true;
+  };
+  Peer& impactor = hub_.impactor();
+  Peer& structure = hub_.structure();
+  const auto done = [&] { return impactor.introduced && structure.introduced; };
+  if (!hub_.run(handler, done, at(transport::in(seconds(deadlines_.connect_s))))) {
+    const std::string who = impactor.introduced    ? structure.name()
+                            : structure.introduced ? impactor.name()
+                                                   : impactor.name() + " and " + structure.name();
+    throw PeerError(who, "did not connect within " + std::to_string(static_cast<int>(deadlines_.connect_s)) +
+                             " s. Is it started with the right address? --connect-deadline waits longer.");
+  }
+}
+
+wire::Setup Session::setup() const {
+  wire::Setup out;
+  out.set_protocol(wire::PROTOCOL_VERSION);
+  out.set_scene_hash(task_.hash);
+  out.set_symmetry(task_.scene.symmetry());
+  out.set_depth(task_.scene.depth());
+  out.set_mirror(task_.scene.structure().extent() == scene::Structure::EXTENT_HALF);
+  return out;
+}
+
+void Session::make_ready(Peer& peer, const wire::Setup& setup) {
+  peer.messages.send(setup);
+  bool ready = false;
+  const auto handler = [&](Peer& from, const wire::Frame& frame) {
+    if (&from != &peer) {
+      from.messages.refuse("nothing before its turn", frame);
+    }
+    from.messages.take(frame, from.ready);
+    ready = true;
+  };
+  if (!hub_.run(handler, [&] { return ready; }, at(transport::in(seconds(deadlines_.step_s))))) {
+    throw PeerError(peer.name(), "did not prepare its model within " +
+                                     std::to_string(static_cast<int>(deadlines_.step_s)) +
+                                     " s; --step-deadline waits longer");
+  }
+  if (peer.ready.scene_hash() != task_.hash) {
+    throw PeerError(peer.name(), "prepared scene " + std::to_string(peer.ready.scene_hash()) + ", this run is of scene " +
+                                     std::to_string(task_.hash));
+  }
+  if (!(peer.ready.stable_step() > 0.0) || !(peer.ready.preferred_step() > 0.0) ||
+      !std::isfinite(peer.ready.preferred_step())) {
+    throw PeerError(peer.name(), "gives a stable step of " + std::to_string(peer.ready.stable_step()) +
+                                     " s and prefers " + std::to_string(peer.ready.preferred_step()) +
+                                     " s; both must be above zero");
+  }
+}
+
+StepPlan Session::prepare() {
+  wire::Setup for_structure = setup();
+  *for_structure.mutable_structure()->mutable_structure() = task_.scene.structure();
+  *for_structure.mutable_structure()->mutable_guards() = task_.scene.guards();
+  make_ready(hub_.structure(), for_structure);
+
+  wire::Setup for_impactor = setup();
+  *for_impactor.mutable_impactor()->mutable_impactor() = task_.scene.impactor();
+  *for_impactor.mutable_impactor()->mutable_guards() = task_.scene.guards();
+  *for_impactor.mutable_impactor()->mutable_surface() = hub_.structure().ready.surface();
+  make_ready(hub_.impactor(), for_impactor);
+
+  const auto steps = [](const Peer& peer) {
+    return SideSteps{.stable = peer.ready.stable_step(), .preferred = peer.ready.preferred_step()};
+  };
+  return plan_steps(task_.scene, task_.end, steps(hub_.impactor()), steps(hub_.structure()));
+}
+
+void Session::run(const StepPlan& plan, StepObserver& observer) {
+  const wire::Start start = plan.start();
+  hub_.structure().messages.send(start);
+  hub_.impactor().messages.send(start);
+  LockStep(hub_, observer, start, deadlines_.step_s).run();
+  complete();
+}
+
+void Session::complete() {
+  wire::Stop message;
+  message.set_reason("complete");
+  hub_.impactor().messages.send(message);
+  hub_.structure().messages.send(message);
+  const auto handler = [](Peer& peer, const wire::Frame& frame) {
+    wire::Finished last;
+    peer.messages.take(frame, last);
+    peer.timing = last.timing();
+    peer.finished = true;
+  };
+  if (!hub_.run(handler, [this] { return finished(); }, at(transport::in(seconds(deadlines_.step_s))))) {
+    throw PeerError(hub_.impactor().finished ? hub_.structure().name() : hub_.impactor().name(),
+                    "did not answer Stop");
+  }
+}
+
+void Session::lose(const std::string& name) {
+  for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) {
+    peer->finished = peer->finished || peer->name() == name;
+  }
+}
+
+void Session::tell_to_stop(const std::string& reason) {
+  wire::Stop message;
+  message.set_reason(reason);
+  message.set_abandoned(true);
+  for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) {
+    try {
+      if (!peer->finished) {
+        peer->messages.send(message);
+      }
+    } catch (const PeerError&) {
+      lose(peer->name());
+    }
+  }
+}
+
+// The run has failed already and its reason is known. A peer that cannot be told any more ends with its channel or with
+// its process; no further failure may keep the other one from being told.
+void Session::abandon(const std::string& reason, const std::string& lost) noexcept {
+  try {
+    lose(lost);
+    tell_to_stop(reason);
+    const auto deadline = transport::in(seconds(deadlines_.stop_s));
+    const auto handler = [](Peer& peer, const wire::Frame& frame) {
+      wire::Finished last;
+      if (wire::parse(frame, last)) {
+        peer.timing = last.timing();
+        peer.finished = true;
+      }
+    };
+    while (!finished() && transport::Clock::now() < deadline) {
+      try {
+        static_cast<void>(hub_.run(handler, [this] { return finished(); }, at(deadline)));
+      } catch (const PeerError& error) {
+        lose(error.peer());
+      } catch (const std::runtime_error&) {  // an Error that crossed our Stop: it was that peer's last message
+      }
+    }
+  } catch (...) {  // a second interrupt: no more waiting
+  }
+}
+
+}  // namespace grainstep::orchestrator

@@ -1,0 +1,53 @@
+/// @file A run as a conversation: introductions, models, agreed steps, the lock step, the end.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "grainstep/scene.pb.h"
+#include "orchestrator/hub.hpp"
+#include "orchestrator/step_observer.hpp"
+#include "orchestrator/step_plan.hpp"
+
+namespace grainstep::orchestrator {
+
+/// What a session needs to know of a scene.
+struct Task {
+  const scene::Scene& scene;
+  std::uint64_t hash = 0;
+  double end = 0.0;  ///< s
+};
+
+/// Order of calls: introduce, prepare, run; and at any time after construction, when one of them threw, abandon.
+/// It does not matter to a session whether its channels lead to processes or to threads.
+class Session {
+ public:
+  Session(Hub& hub, const Task& task, const Deadlines& deadlines) : hub_(hub), task_(task), deadlines_(deadlines) {}
+
+  /// Both Hellos, checked. PeerError names whoever did not come.
+  void introduce();
+
+  /// Setup and Ready: the structure first, because the impactor is told its surface. Agrees on the steps.
+  [[nodiscard]] StepPlan prepare();
+
+  /// Start, all windows, Stop, Finished.
+  void run(const StepPlan& plan, StepObserver& observer);
+
+  /// Asks both sides, but for `lost` (a peer's name, or empty), to stop and waits a little for their answers.
+  void abandon(const std::string& reason, const std::string& lost) noexcept;
+
+ private:
+  void check_hello(const Peer& peer) const;
+  wire::Setup setup() const;
+  void make_ready(Peer& peer, const wire::Setup& setup);
+  void complete();
+  void tell_to_stop(const std::string& reason);
+  [[nodiscard]] bool finished() { return hub_.impactor().finished && hub_.structure().finished; }
+  void lose(const std::string& name);
+
+  Hub& hub_;
+  Task task_;
+  Deadlines deadlines_;
+};
+
+}  // namespace grainstep::orchestrator

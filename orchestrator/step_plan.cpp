@@ -1,0 +1,110 @@
+#include "orchestrator/step_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/error.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+// Steps are written with a few digits; closer than this to a whole ratio they mean it.
+constexpr double whole_tolerance = 1e-6;
+// What a quotient of two doubles may lie off the integer that it is.
+constexpr double round_off = 1e-9;
+
+constexpr double steps_per_contact = 10.0;  // an impactor's preferred step is t_e/10 (physics: dt = t_e/10)
+
+[[noreturn]] void refuse(const std::string& where, const std::string& text) { throw InputError(where + ": " + text); }
+
+std::string number(double value) {
+  std::ostringstream out;
+  out.precision(4);
+  out << value;
+  return out.str();
+}
+
+void require_stable(const std::string& where, double step, double stable) {
+  if (step > stable * (1.0 + round_off)) {
+    refuse(where, "a step of " + number(step) + " s was asked for, the largest stable one is " + number(stable) +
+                      " s. Write a smaller one, or auto.");
+  }
+}
+
+double impactor_step(const scene::Step& step, SideSteps side) {
+  double seconds = side.preferred;
+  if (step.value_case() == scene::Step::kSeconds) {
+    seconds = step.seconds();
+  } else if (step.value_case() == scene::Step::kRatio) {
+    seconds = steps_per_contact * side.preferred / step.ratio();
+  }
+  require_stable("steps.impactor", seconds, side.stable);
+  return seconds;
+}
+
+void choose_structure_steps(StepPlan& plan, double preferred) {
+  const double ratio = preferred / plan.impactor_step;
+  plan.impactor_steps = static_cast<std::uint32_t>(std::max(1.0, std::floor(ratio * (1.0 + round_off))));
+  plan.structure_steps =
+      static_cast<std::uint32_t>(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
+}
+
+// `ratio`: structure step over impactor step, which must be an integer or one over an integer.
+void honour_structure_ratio(StepPlan& plan, double ratio) {
+  const bool longer = ratio >= 1.0;
+  const double many = longer ? ratio : 1.0 / ratio;
+  const double whole = std::max(1.0, std::round(many));
+  if (std::abs(many - whole) > whole_tolerance * whole) {
+    const auto step_of = [&](double n) { return number(longer ? n * plan.impactor_step : plan.impactor_step / n); };
+    refuse("steps.structure",
+           "is " + number(ratio) + " times the impactor's step of " + number(plan.impactor_step) +
+               " s, but the sides meet only when this is an integer or one over an integer. The nearest are " +
+               step_of(std::floor(many)) + " s and " + step_of(std::floor(many) + 1.0) + " s.");
+  }
+  (longer ? plan.impactor_steps : plan.structure_steps) = static_cast<std::uint32_t>(whole);
+  plan.structure_fixed = true;
+}
+
+std::uint64_t every(std::uint64_t windows, std::uint64_t times) {
+  return times == 0 ? 0 : std::max<std::uint64_t>(1, (windows + times / 2) / times);
+}
+
+}  // namespace
+
+wire::Start StepPlan::start() const {
+  wire::Start out;
+  out.set_window(window);
+  out.set_windows(windows);
+  out.set_impactor_steps(impactor_steps);
+  out.set_structure_steps(structure_steps);
+  out.set_structure_fixed(structure_fixed);
+  out.set_report_every(report_every);
+  out.set_snapshot_every(snapshot_every);
+  return out;
+}
+
+StepPlan plan_steps(const scene::Scene& scene, double end, SideSteps impactor, SideSteps structure) {
+  StepPlan plan;
+  plan.impactor_step = impactor_step(scene.steps().impactor(), impactor);
+  const scene::Step& asked = scene.steps().structure();
+  if (asked.value_case() == scene::Step::kSeconds) {
+    require_stable("steps.structure", asked.seconds(), structure.stable);
+    honour_structure_ratio(plan, asked.seconds() / plan.impactor_step);
+  } else if (asked.value_case() == scene::Step::kRatio) {
+    require_stable("steps.structure", asked.ratio() * plan.impactor_step, structure.stable);
+    honour_structure_ratio(plan, asked.ratio());
+  } else {
+    choose_structure_steps(plan, structure.preferred);
+  }
+  plan.window = plan.impactor_steps * plan.impactor_step;
+  plan.structure_step = plan.window / plan.structure_steps;
+  plan.windows = static_cast<std::uint64_t>(std::max(1.0, std::ceil(end / plan.window * (1.0 - round_off))));
+  plan.report_every = every(plan.windows, scene.output().rows());
+  const std::uint32_t snapshots = scene.output().snapshots();  // the first of them at the start
+  plan.snapshot_every = snapshots == 1 ? plan.windows + 1 : every(plan.windows, snapshots == 0 ? 0 : snapshots - 1);
+  plan.profile_every = every(plan.windows, scene.output().profiles());
+  return plan;
+}
+
+}  // namespace grainstep::orchestrator

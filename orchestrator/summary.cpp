@@ -1,0 +1,94 @@
+#include "orchestrator/summary.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace grainstep::orchestrator {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Infinite groups (a slug at rest) have no JSON number.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string text_of(const Json& value, const char* format) {
+  if (!value.is_number()) {
+    return "-";
+  }
+  char out[64];
+  std::snprintf(out, sizeof out, format, value.get<double>());
+  return out;
+}
+
+Json early_pressure(const SummaryInput& in) {
+  const scene::Groups& g = in.groups;
+  if (!in.findings.early_impulse || !(g.slug_pressure > 0.0)) {
+    return nullptr;
+  }
+  constexpr double interval = 0.25;  // of t_hat, from 0.05 to 0.3
+  return *in.findings.early_impulse / (g.slug_pressure * interval * g.slug_time);
+}
+
+Json split_of(const SummaryInput& in) {
+  return {{"impactor_compute", in.impactor_timing.compute()},
+          {"impactor_wait", in.impactor_timing.wait()},
+          {"structure_compute", in.structure_timing.compute()},
+          {"structure_wait", in.structure_timing.wait()},
+          {"orchestrator", in.orchestrator_seconds}};
+}
+
+}  // namespace
+
+Json summary(const SummaryInput& in) {
+  const scene::Groups& g = in.groups;
+  const Findings& f = in.findings;
+  Json out;
+  out["status"] = in.status;
+  out["reason"] = in.reason;
+  out["impulse_number"] = number(g.impulse_number);
+  out["areal_mass_ratio"] = number(g.areal_mass_ratio);
+  out["loading_time_ratio"] = number(g.loading_time_ratio);
+  out["peak_deflection"] = in.plan ? number(f.peak_deflection / in.scene.structure().half_span()) : Json(nullptr);
+  out["peak_deflection_time"] = in.plan ? number(f.peak_deflection_time / g.reference_time) : Json(nullptr);
+  out["final_time"] = number(f.final_time / g.reference_time);
+  out["transmitted_impulse"] = in.plan ? number(f.transmitted / g.areal_momentum) : Json(nullptr);
+  out["early_pressure"] = early_pressure(in);
+  out["peak_core_compression"] = nullptr;  // a monolithic beam has no core
+  out["peak_core_compression_time"] = nullptr;
+  out["energy_drift"] = in.plan ? number(f.energy_drift) : Json(nullptr);
+  out["momentum_error"] = in.plan ? number(f.momentum_error) : Json(nullptr);
+  out["particles"] = in.impactor.size();
+  out["elements"] = in.structure.size();
+  out["impactor_steps"] = std::max(f.impactor_steps, in.impactor_timing.steps());
+  out["structure_steps"] = std::max(f.structure_steps, in.structure_timing.steps());
+  out["impactor_step"] = in.plan ? number(in.plan->impactor_step) : Json(nullptr);
+  out["structure_step"] = in.plan ? number(in.plan->structure_step) : Json(nullptr);
+  out["wall_seconds"] = in.wall_seconds;
+  out["wall_split"] = split_of(in);
+  return out;
+}
+
+std::string digest(const Json& s) {
+  std::string out = "status               " + s["status"].get<std::string>();
+  if (const auto reason = s["reason"].get<std::string>(); !reason.empty()) {
+    out += ": " + reason;
+  }
+  out += "\nimpulse number I_o   " + text_of(s["impulse_number"], "%.3g");
+  out += "\npeak deflection      " + text_of(s["peak_deflection"], "%.4f") + " w/L at t_bar " +
+         text_of(s["peak_deflection_time"], "%.3f") + " (run to " + text_of(s["final_time"], "%.3f") + ")";
+  out += "\ntransmitted impulse  " + text_of(s["transmitted_impulse"], "%.4f") + " I_t/I0, early pressure " +
+         text_of(s["early_pressure"], "%.3f") + " p/(rho_bar rho_s v0^2)";
+  out += "\nledgers              momentum error " + text_of(s["momentum_error"], "%.1e") + ", energy drift " +
+         text_of(s["energy_drift"], "%.2e");
+  const Json& split = s["wall_split"];
+  out += "\nsize                 " + text_of(s["particles"], "%.0f") + " particles, " + text_of(s["elements"], "%.0f") +
+         " elements, " + text_of(s["impactor_steps"], "%.0f") + " and " + text_of(s["structure_steps"], "%.0f") +
+         " steps";
+  out += "\nwall clock           " + text_of(s["wall_seconds"], "%.1f") + " s: impactor " +
+         text_of(split["impactor_compute"], "%.1f") + " + " + text_of(split["impactor_wait"], "%.1f") +
+         " waiting, structure " + text_of(split["structure_compute"], "%.1f") + " + " +
+         text_of(split["structure_wait"], "%.1f") + " waiting, orchestrator " + text_of(split["orchestrator"], "%.1f");
+  return out + "\n";
+}
+
+}  // namespace grainstep::orchestrator
