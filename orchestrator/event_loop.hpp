@@ -1,4 +1,5 @@
-/// @file One place to wait: channels, ended processes and signals. Blocks in poll(), never spins, never without deadline.
+/// @file One place to wait: channels, ended processes and signals. Blocks in poll(), never spins, never without
+/// deadline.
 #pragma once
 
 #include <functional>

@@ -42,8 +42,8 @@ void LockStep::run() {
   hub_.structure().heard = now;
   const auto deadline = [this] {
     observer_.idle();
-    return waited_for().heard + std::chrono::duration_cast<transport::Clock::duration>(
-                                    std::chrono::duration<double>(silence_s_));
+    return waited_for().heard +
+           std::chrono::duration_cast<transport::Clock::duration>(std::chrono::duration<double>(silence_s_));
   };
   if (!hub_.run([this](Peer& peer, const wire::Frame& frame) { handle(peer, frame); }, [this] { return done(); },
                 deadline)) {
@@ -94,10 +94,10 @@ void LockStep::require_size(const Peer& peer, const char* what, std::uint64_t wi
 void LockStep::on_forces(const wire::Frame& frame) {
   Peer& impactor = hub_.impactor();
   if (structure_owes_ || next_forces_ > start_.windows() || wire::window_of(frame) != next_forces_) {
-    impactor.messages.refuse(structure_owes_ ? "no Forces before the Kinematics of window " +
-                                                   std::to_string(next_forces_) + " were sent"
-                                             : "Forces of window " + std::to_string(next_forces_),
-                             frame);
+    impactor.messages.refuse(
+        structure_owes_ ? "no Forces before the Kinematics of window " + std::to_string(next_forces_) + " were sent"
+                        : "Forces of window " + std::to_string(next_forces_),
+        frame);
   }
   hub_.structure().messages.forward(frame);
   hub_.structure().heard = transport::Clock::now();

@@ -8,8 +8,8 @@
 
 namespace grainstep::orchestrator {
 
-/// Runs from Start to the last report of both sides. Throws PeerError for silence, messages out of order or of the wrong
-/// size; NumericalError for numbers that are not finite; what the observer throws.
+/// Runs from Start to the last report of both sides. Throws PeerError for silence, messages out of order or of the
+/// wrong size; NumericalError for numbers that are not finite; what the observer throws.
 class LockStep {
  public:
   LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s);
@@ -40,8 +40,8 @@ class LockStep {
   StepObserver& observer_;
   wire::Start start_;
   double silence_s_;
-  int values_;                         // nodes x dimension of the surface
-  std::uint64_t next_forces_;          // window of the Forces that come next
+  int values_;                 // nodes x dimension of the surface
+  std::uint64_t next_forces_;  // window of the Forces that come next
   Extra impactor_;
   Extra structure_;
   wire::Forces forces_;  // kept: their capacity is reused

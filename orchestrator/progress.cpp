@@ -70,8 +70,9 @@ void Progress::tick(std::uint64_t window) {
 void Progress::draw(std::uint64_t window) {
   const double part = static_cast<double>(window) / static_cast<double>(windows_);
   const double rate = rate_.per_second();
-  const std::string left =
-      rate > 0.0 ? "about " + duration_text(static_cast<double>(windows_ - window) / rate) + " left" : "time left not known yet";
+  const std::string left = rate > 0.0
+                               ? "about " + duration_text(static_cast<double>(windows_ - window) / rate) + " left"
+                               : "time left not known yet";
   const double t_bar = static_cast<double>(window) * t_bar_per_window_;
   if (style_ == Style::bar) {
     const auto full = std::min(bar_width, static_cast<std::size_t>(part * bar_width));
@@ -80,7 +81,8 @@ void Progress::draw(std::uint64_t window) {
     open_line_ = true;
   } else {
     std::fprintf(stream_, "%5.1f%%  window %llu of %llu  t_bar %.3f  %s\n", 100.0 * part,
-                 static_cast<unsigned long long>(window), static_cast<unsigned long long>(windows_), t_bar, left.c_str());
+                 static_cast<unsigned long long>(window), static_cast<unsigned long long>(windows_), t_bar,
+                 left.c_str());
   }
   std::fflush(stream_);
 }

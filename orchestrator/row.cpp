@@ -15,7 +15,8 @@ void put(Row& row, const std::string& dataset, const char* unit, const char* tit
   row.push_back({.dataset = dataset, .meaning = {unit, title}, .value = value});
 }
 
-void put_vector(Row& row, const std::string& dataset, const char* unit, const char* title, const ledger::Vector& value) {
+void put_vector(Row& row, const std::string& dataset, const char* unit, const char* title,
+                const ledger::Vector& value) {
   put(row, dataset + "_x1", unit, title, value[0]);
   put(row, dataset + "_x2", unit, title, value[1]);
 }
@@ -41,7 +42,8 @@ void put_energy(Row& row, const std::string& side, const wire::Energy& e) {
 void put_momentum(Row& row, const std::string& side, const ledger::Closure& closure) {
   const std::string group = "/ledger/" + side + "/momentum/";
   put_vector(row, group + "change", "N s", "momentum gained since the start", closure.change);
-  put_vector(row, group + "interface", "N s", "impulse received through the surface since the start", closure.interface);
+  put_vector(row, group + "interface", "N s", "impulse received through the surface since the start",
+             closure.interface);
   put_vector(row, group + "support", "N s", "impulse received from supports since the start", closure.support);
   put(row, group + "error", "", "what of this side's momentum is not explained, over the initial momentum",
       closure.error);
@@ -53,9 +55,10 @@ Row series_row(const RowData& data, const scene::Groups& groups) {
   Row row;
   put(row, "/series/time", "s", "time since first contact", data.time);
   put(row, "/series/t_bar", "", "t / (L sqrt(rho_m/sigma_Y))", data.time / groups.reference_time);
-  put(row, "/series/t_hat", "", "slug time t v0 / H", std::isfinite(groups.slug_time) ? data.time / groups.slug_time : 0);
-  put(row, "/series/mean_pressure", "Pa", "contact pressure averaged over the slug's width and the row's interval (4.4)",
-      data.mean_pressure);
+  put(row, "/series/t_hat", "", "slug time t v0 / H",
+      std::isfinite(groups.slug_time) ? data.time / groups.slug_time : 0);
+  put(row, "/series/mean_pressure", "Pa",
+      "contact pressure averaged over the slug's width and the row's interval (4.4)", data.mean_pressure);
   put(row, "/series/transmitted_impulse", "Pa s", "integral of the mean pressure (4.5)", data.transmitted);
   put(row, "/series/transmitted_impulse_ratio", "", "I_t / I0",
       groups.areal_momentum > 0.0 ? data.transmitted / groups.areal_momentum : 0.0);
@@ -89,8 +92,8 @@ Row ledger_row(const RowData& data) {
 Row timing_row(const RowData& data) {
   Row row;
   put(row, "/timings/time", "s", "time since first contact", data.time);
-  for (const auto& [side, timing] : {std::pair{"impactor", &data.impactor.timing()},
-                                     std::pair{"structure", &data.structure.timing()}}) {
+  for (const auto& [side, timing] :
+       {std::pair{"impactor", &data.impactor.timing()}, std::pair{"structure", &data.structure.timing()}}) {
     const std::string group = std::string("/timings/") + side + "/";
     put(row, group + "compute", "s", "wall clock time computing", timing->compute());
     put(row, group + "wait", "s", "wall clock time waiting for the other side", timing->wait());

@@ -71,14 +71,15 @@ void Session::make_ready(Peer& peer, const wire::Setup& setup) {
     from.messages.take(frame, from.ready);
     ready = true;
   };
-  if (!hub_.run(handler, [&] { return ready; }, at(transport::in(seconds(deadlines_.step_s))))) {
+  if (!hub_.run(
+          handler, [&] { return ready; }, at(transport::in(seconds(deadlines_.step_s))))) {
     throw PeerError(peer.name(), "did not prepare its model within " +
                                      std::to_string(static_cast<int>(deadlines_.step_s)) +
                                      " s; --step-deadline waits longer");
   }
   if (peer.ready.scene_hash() != task_.hash) {
-    throw PeerError(peer.name(), "prepared scene " + std::to_string(peer.ready.scene_hash()) + ", this run is of scene " +
-                                     std::to_string(task_.hash));
+    throw PeerError(peer.name(), "prepared scene " + std::to_string(peer.ready.scene_hash()) +
+                                     ", this run is of scene " + std::to_string(task_.hash));
   }
   if (!(peer.ready.stable_step() > 0.0) || !(peer.ready.preferred_step() > 0.0) ||
       !std::isfinite(peer.ready.preferred_step())) {
@@ -125,9 +126,9 @@ void Session::complete() {
     peer.timing = last.timing();
     peer.finished = true;
   };
-  if (!hub_.run(handler, [this] { return finished(); }, at(transport::in(seconds(deadlines_.step_s))))) {
-    throw PeerError(hub_.impactor().finished ? hub_.structure().name() : hub_.impactor().name(),
-                    "did not answer Stop");
+  if (!hub_.run(
+          handler, [this] { return finished(); }, at(transport::in(seconds(deadlines_.step_s))))) {
+    throw PeerError(hub_.impactor().finished ? hub_.structure().name() : hub_.impactor().name(), "did not answer Stop");
   }
 }
 
@@ -168,7 +169,8 @@ void Session::abandon(const std::string& reason, const std::string& lost) noexce
     };
     while (!finished() && transport::Clock::now() < deadline) {
       try {
-        static_cast<void>(hub_.run(handler, [this] { return finished(); }, at(deadline)));
+        static_cast<void>(hub_.run(
+            handler, [this] { return finished(); }, at(deadline)));
       } catch (const PeerError& error) {
         lose(error.peer());
       } catch (const std::runtime_error&) {  // an Error that crossed our Stop: it was that peer's last message

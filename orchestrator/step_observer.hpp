@@ -5,8 +5,8 @@
 
 namespace grainstep::orchestrator {
 
-/// Calls come in the order of the messages; those of one side are ordered in time. Exceptions end the run: NumericalError
-/// when a limit is exceeded, OutputError when nothing can be written any more.
+/// Calls come in the order of the messages; those of one side are ordered in time. Exceptions end the run:
+/// NumericalError when a limit is exceeded, OutputError when nothing can be written any more.
 class StepObserver {
  public:
   StepObserver() = default;

@@ -1,0 +1,113 @@
+#include "orchestrator/step_plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr SideSteps impactor{.stable = 4e-8, .preferred = 2.4e-8};
+
+scene::Scene automatic() {
+  scene::Scene out;
+  out.mutable_output()->set_rows(500);
+  out.mutable_output()->set_snapshots(50);
+  out.mutable_output()->set_profiles(30);
+  return out;
+}
+
+StepPlan with_structure(double stable) {
+  return plan_steps(automatic(), 3e-3, impactor, {.stable = stable, .preferred = stable});
+}
+
+std::string refusal(const scene::Scene& scene, SideSteps structure = {1e-7, 1e-7}) {
+  try {
+    static_cast<void>(plan_steps(scene, 3e-3, impactor, structure));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StepPlan, ASlowerStructureTakesOneStepForSeveralOfTheImpactor) {
+  const StepPlan plan = with_structure(1.3e-7);
+  EXPECT_EQ(plan.impactor_steps, 5U);
+  EXPECT_EQ(plan.structure_steps, 1U);
+  EXPECT_DOUBLE_EQ(plan.window, 1.2e-7);
+  EXPECT_DOUBLE_EQ(plan.structure_step, 1.2e-7);
+  EXPECT_FALSE(plan.structure_fixed);
+}
+
+TEST(StepPlan, AFasterStructureTakesSeveralSteps) {
+  const StepPlan plan = with_structure(1e-8);
+  EXPECT_EQ(plan.impactor_steps, 1U);
+  EXPECT_EQ(plan.structure_steps, 3U);
+  EXPECT_DOUBLE_EQ(plan.structure_step, 0.8e-8);
+}
+
+TEST(StepPlan, ExactRatiosAreNotLostToRoundOff) {
+  for (unsigned n = 1; n < 200; ++n) {
+    EXPECT_EQ(with_structure(n * 2.4e-8).impactor_steps, n);
+    const StepPlan finer = with_structure(2.4e-8 / n);
+    EXPECT_EQ(finer.structure_steps, n);
+    EXPECT_EQ(finer.impactor_steps, 1U);
+  }
+}
+
+TEST(StepPlan, EqualPreferencesAreEqualSteps) { EXPECT_TRUE(with_structure(2.4e-8).equal_steps()); }
+
+TEST(StepPlan, CoversTheEndWithoutATruncatedOrSpareWindow) {
+  for (unsigned n = 1; n < 2000; ++n) {
+    const StepPlan plan = plan_steps(automatic(), n * 2.4e-8, impactor, {2.4e-8, 2.4e-8});
+    EXPECT_EQ(plan.windows, n);
+  }
+  EXPECT_EQ(plan_steps(automatic(), 10.5 * 2.4e-8, impactor, {2.4e-8, 2.4e-8}).windows, 11U);
+}
+
+TEST(StepPlan, HonoursWhatTheSceneFixes) {
+  auto scene = automatic();
+  scene.mutable_steps()->mutable_impactor()->set_ratio(20.0);
+  scene.mutable_steps()->mutable_structure()->set_seconds(3.6e-8);
+  const StepPlan plan = plan_steps(scene, 3e-3, impactor, {1e-7, 1e-7});
+  EXPECT_DOUBLE_EQ(plan.impactor_step, 1.2e-8);
+  EXPECT_EQ(plan.impactor_steps, 3U);
+  EXPECT_EQ(plan.structure_steps, 1U);
+  EXPECT_TRUE(plan.structure_fixed);
+  scene.mutable_steps()->mutable_structure()->set_ratio(0.25);
+  EXPECT_EQ(plan_steps(scene, 3e-3, impactor, {1e-7, 1e-7}).structure_steps, 4U);
+}
+
+TEST(StepPlan, RefusesUnstableStepsWithBothValues) {
+  auto scene = automatic();
+  scene.mutable_steps()->mutable_impactor()->set_seconds(5e-8);
+  EXPECT_THAT(refusal(scene), ::testing::AllOf(HasSubstr("steps.impactor"), HasSubstr("5e-08"), HasSubstr("4e-08")));
+  scene = automatic();
+  scene.mutable_steps()->mutable_structure()->set_ratio(5.0);
+  EXPECT_THAT(refusal(scene), HasSubstr("steps.structure: a step of 1.2e-07"));
+}
+
+TEST(StepPlan, RefusesStepsThatNeverMeetAndNamesTheNearest) {
+  auto scene = automatic();
+  scene.mutable_steps()->mutable_structure()->set_seconds(6e-8);
+  EXPECT_THAT(refusal(scene), ::testing::AllOf(HasSubstr("2.5 times"), HasSubstr("4.8e-08"), HasSubstr("7.2e-08")));
+}
+
+TEST(StepPlan, ExtraOutputComesAboutAsOftenAsAskedFor) {
+  const StepPlan plan = with_structure(1.3e-7);  // 25000 windows
+  EXPECT_EQ(plan.windows, 25000U);
+  EXPECT_EQ(plan.report_every, 50U);
+  EXPECT_EQ(plan.snapshot_every, 510U);  // the first of 50 at the start
+  EXPECT_EQ(plan.profile_every, 833U);
+  auto scene = automatic();
+  scene.mutable_output()->set_snapshots(0);
+  scene.mutable_output()->set_rows(100000);
+  const StepPlan dense = plan_steps(scene, 3e-3, impactor, {1.3e-7, 1.3e-7});
+  EXPECT_EQ(dense.snapshot_every, 0U);
+  EXPECT_EQ(dense.report_every, 1U);
+}
+
+}  // namespace
+}  // namespace grainstep::orchestrator
