@@ -1,6 +1,6 @@
 /// @file A channel carries whole messages of bytes between exactly two peers, in order, without loss or duplication
-/// while both live. Implementations: ZeroMQ (zmq_channel.hpp), in-process (in_process_channel.hpp); decorators for tests
-/// (faulty_channel.hpp, recording_channel.hpp). One contract suite runs over all of them.
+/// while both live. Implementations: ZeroMQ (zmq_channel.hpp), in-process (in_process_channel.hpp); decorators for
+/// tests (faulty_channel.hpp, recording_channel.hpp). One contract suite runs over all of them.
 #pragma once
 
 #include <chrono>
@@ -35,8 +35,8 @@ class Channel {
   /// Throws PeerError as soon as the peer is lost and every message that it sent has been taken.
   [[nodiscard]] virtual bool receive(Bytes& message, Deadline deadline) = 0;
 
-  /// A file descriptor that becomes readable when receive() may have something to say, for use in poll(); edge-triggered
-  /// like ZMQ_FD: after a wake-up call receive() until it returns false. -1: none.
+  /// A file descriptor that becomes readable when receive() may have something to say, for use in poll();
+  /// edge-triggered like ZMQ_FD: after a wake-up call receive() until it returns false. -1: none.
   [[nodiscard]] virtual int wakeup() const { return -1; }
 };
 

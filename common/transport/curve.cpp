@@ -103,7 +103,8 @@ bool leaves_this_host(const std::string& endpoint) {
     return false;
   }
   const std::string host = endpoint.substr(scheme.size(), endpoint.rfind(':') - scheme.size());
-  return host.rfind("127.", 0) != 0 && host != "localhost" && host != "[::1]" && host != "::1";
+  const bool numeric = host.find_first_not_of("0123456789.") == std::string::npos;  // a name may begin with 127. too
+  return !(numeric && host.rfind("127.", 0) == 0) && host != "localhost" && host != "[::1]";
 }
 
 }  // namespace grainstep::transport

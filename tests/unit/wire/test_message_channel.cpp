@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "transport/faulty_channel.hpp"
 #include "transport/in_process_channel.hpp"
 
 namespace grainstep::wire {
@@ -58,6 +59,35 @@ TEST(MessageChannel, an_order_that_is_broken_is_told_in_full) {
   frame = ends.right.receive(soon);
   EXPECT_EQ(peer_error([&] { ends.right.take(*frame, into, 17); }),
             "left: message 2: expected Kinematics of window 17, got Error: element 7 inverted");
+}
+
+/// What the receiver says when the second of three messages is mistreated on its way.
+std::string noticed(transport::Fault fault) {
+  auto [left, right] = transport::make_in_process_pair();
+  transport::FaultyChannel faulty(*left, fault);
+  MessageChannel sender(faulty, "right");
+  MessageChannel receiver(*right, "left");
+  for (std::uint64_t window = 1; window <= 3; ++window) {
+    Forces forces;
+    forces.set_window(window);
+    forces.add_impulse(1.0);
+    sender.send(forces);
+  }
+  return peer_error([&] {
+    while (receiver.receive(transport::Clock::now()) != nullptr) {
+    }
+  });
+}
+
+TEST(MessageChannel, notices_every_fault_of_the_way) {
+  using Kind = transport::Fault::Kind;
+  const std::string lost = "left: message 2: found sequence number 3, expected 2: messages were lost or repeated";
+  EXPECT_EQ(noticed({Kind::drop, 2, 0}), lost);
+  EXPECT_EQ(noticed({Kind::delay, 2, 0}), lost);
+  EXPECT_EQ(noticed({Kind::duplicate, 2, 0}),
+            "left: message 3: found sequence number 2, expected 3: messages were lost or repeated");
+  EXPECT_EQ(noticed({Kind::truncate, 2, 10}), "left: message 2: found a frame of 10 bytes, expected at least 24");
+  EXPECT_NE(noticed({Kind::flip_bit, 2, 8 * 30}).find("left: message 2: checksum"), std::string::npos);
 }
 
 }  // namespace
