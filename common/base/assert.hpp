@@ -10,9 +10,9 @@ namespace grainstep {
 }  // namespace grainstep
 
 /// GS_ASSERT(condition, text): `text` is any expression that makes a std::string, evaluated only on failure.
-#define GS_ASSERT(condition, text)                                             \
-  do {                                                                         \
-    if (!(condition)) {                                                        \
-      ::grainstep::assertion_failed(#condition, __FILE__, __LINE__, (text));   \
-    }                                                                          \
+#define GS_ASSERT(condition, text)                                           \
+  do {                                                                       \
+    if (!(condition)) {                                                      \
+      ::grainstep::assertion_failed(#condition, __FILE__, __LINE__, (text)); \
+    }                                                                        \
   } while (false)

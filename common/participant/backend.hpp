@@ -32,8 +32,8 @@ class StructureBackend {
   virtual void start(const wire::Start& start) = 0;
 
   /// Receives the impulse of window n = forces.window() and moves the structure from t(n) to t(n+1), filling `next`
-  /// (window n+1). Only what `next` needs is done here. Where `due` asks, the state at t(n) is kept for report/snapshot.
-  /// After the last window it is called as well, for the state at the end; `next` is then not sent.
+  /// (window n+1). Only what `next` needs is done here. Where `due` asks, the state at t(n) is kept for
+  /// report/snapshot. After the last window it is called as well, for the state at the end; `next` is then not sent.
   virtual void advance(const wire::Forces& forces, Due due, wire::Kinematics& next) = 0;
 
   /// The state at t(n), velocities synchronised to t(n). Called after `next` was sent.
@@ -49,8 +49,8 @@ class ImpactorLink {
  public:
   virtual ~ImpactorLink() = default;
 
-  /// Blocks until the surface at the end of window n is here. nullptr: the orchestrator ended the run; return from run().
-  /// The message stays valid until the next call.
+  /// Blocks until the surface at the end of window n is here. nullptr: the orchestrator ended the run; return from
+  /// run(). The message stays valid until the next call.
   [[nodiscard]] virtual const wire::Kinematics* surface(std::uint64_t window) = 0;
 
   [[nodiscard]] virtual Due due(std::uint64_t window) const = 0;

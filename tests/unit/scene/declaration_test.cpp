@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "grainstep/scene.pb.h"
 #include "scene/problems.hpp"
@@ -65,6 +67,31 @@ TEST(Declaration, SectionsWithoutRequiredKeysReadFromNothing) {
     read_message(nothing, "", *section, problems);
   }
   EXPECT_NO_THROW(problems.throw_if_any());
+}
+
+/// Every symbol with the path of its key, in the notation table.
+void expect_in_notation(const std::string& notation, const Descriptor& section, const std::string& path) {
+  for (int i = 0; i < section.field_count(); ++i) {
+    const FieldDescriptor& field = *section.field(i);
+    const bool alternative = section_of(section).scalar_form();
+    const std::string key = alternative ? path : join_path(path, field.name()) + (field.is_repeated() ? ".N" : "");
+    const std::string& symbol = key_of(field).symbol();
+    const std::string column = "`" + section.name() + "." + field.name() + "`";
+    bool found = symbol.empty();
+    std::istringstream lines(notation);
+    for (std::string line; std::getline(lines, line) && !found;) {
+      found = line.starts_with("| `" + symbol + "` |") && line.find("`" + key + "`") != std::string::npos &&
+              line.find(column) != std::string::npos;
+    }
+    EXPECT_TRUE(found) << "docs/theory/notation.md has no row for " << symbol << ", " << key << ", " << column;
+    if (field.message_type() != nullptr) expect_in_notation(notation, *field.message_type(), key);
+  }
+}
+
+TEST(Declaration, EverySymbolIsInTheNotationTable) {
+  std::ostringstream notation;
+  notation << std::ifstream(GRAINSTEP_SOURCE_DIR "/docs/theory/notation.md").rdbuf();
+  expect_in_notation(notation.str(), *Scene::descriptor(), "");
 }
 
 }  // namespace
