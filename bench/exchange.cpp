@@ -1,0 +1,239 @@
+/// @file What one exchange costs: microseconds from sending a surface's worth of numbers until the answer is parsed,
+/// over every kind of channel, directly and through a forwarding hub like the orchestrator. Serialising, checksums and
+/// parsing are included. Prints a Markdown table.
+#include <poll.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "base/error.hpp"
+#include "transport/in_process_channel.hpp"
+#include "transport/zmq_channel.hpp"
+#include "wire/message_channel.hpp"
+
+namespace {
+
+using namespace grainstep;
+using transport::Channel;
+using transport::Clock;
+using transport::ZmqChannel;
+using transport::ZmqOptions;
+
+transport::Deadline patient() { return transport::in(std::chrono::seconds(30)); }
+
+/// Answers every Forces by Kinematics of the same size, as a structure without physics.
+void answer(Channel& channel) {
+  wire::MessageChannel messages(channel, "driver");
+  wire::Forces forces;
+  wire::Kinematics kinematics;
+  try {
+    while (const wire::Frame* frame = messages.receive(patient())) {
+      messages.take(*frame, forces);
+      kinematics.set_window(forces.window() + 1);
+      kinematics.mutable_position()->CopyFrom(forces.impulse());
+      messages.send(kinematics);
+    }
+  } catch (const PeerError&) {  // the driver has finished
+  }
+}
+
+/// Passes messages on as the orchestrator does: without parsing the numbers.
+void relay(Channel& first, Channel& second) {
+  wire::MessageChannel one(first, "driver");
+  wire::MessageChannel other(second, "answerer");
+  const auto pass = [](wire::MessageChannel& from, wire::MessageChannel& to) {
+    bool any = false;
+    while (const wire::Frame* frame = from.receive(Clock::now())) {
+      to.forward(*frame);
+      any = true;
+    }
+    return any;
+  };
+  try {
+    while (true) {
+      const bool forth = pass(one, other);
+      const bool back = pass(other, one);
+      if (!forth && !back) {
+        pollfd items[] = {{first.wakeup(), POLLIN, 0}, {second.wakeup(), POLLIN, 0}};
+        ::poll(items, 2, 30'000);
+      }
+    }
+  } catch (const PeerError&) {  // the driver has finished
+  }
+}
+
+struct Figures {
+  double median_us;
+  double p99_us;
+};
+
+Figures drive(Channel& channel, int bytes, int samples) {
+  wire::MessageChannel messages(channel, "answerer");
+  wire::Forces forces;
+  for (int i = 0; i < bytes / 8; ++i) {
+    forces.add_impulse(1e-3 * i);
+  }
+  wire::Kinematics kinematics;
+  std::vector<double> times;
+  const int warm_up = samples / 10;
+  for (int i = 0; i < warm_up + samples; ++i) {
+    const auto before = Clock::now();
+    forces.set_window(static_cast<std::uint64_t>(i));
+    messages.send(forces);
+    const wire::Frame* frame = messages.receive(patient());
+    if (frame == nullptr) {
+      throw PeerError("answerer", "silent");
+    }
+    messages.take(*frame, kinematics);
+    if (i >= warm_up) {
+      times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - before).count());
+    }
+  }
+  std::sort(times.begin(), times.end());
+  return {times[times.size() / 2], times[times.size() * 99 / 100]};
+}
+
+/// Tells a forked process where to connect to.
+class Line {
+ public:
+  Line() {
+    if (::pipe(ends_) != 0) {
+      throw std::runtime_error("pipe");
+    }
+  }
+  void tell(const std::string& text) const {
+    if (::write(ends_[1], text.c_str(), text.size() + 1) < 0) {
+      throw std::runtime_error("write to a pipe");
+    }
+  }
+  [[nodiscard]] std::string hear() const {
+    char text[256] = {};
+    if (::read(ends_[0], text, sizeof text - 1) <= 0) {
+      throw std::runtime_error("read from a pipe");
+    }
+    return text;
+  }
+
+ private:
+  int ends_[2];
+};
+
+template <class Work>
+pid_t in_process_of_its_own(Work&& work) {
+  const pid_t id = ::fork();
+  if (id == 0) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+    }
+    ::_exit(0);
+  }
+  return id;
+}
+
+struct Kind {
+  const char* name;
+  const char* endpoint;  // %s: a private directory; nullptr: in-process
+  bool curve;
+};
+
+std::string endpoint_of(const Kind& kind, const std::string& directory, const char* suffix) {
+  const std::string text = kind.endpoint;
+  return text.rfind("ipc", 0) == 0 ? text + directory + "/" + suffix : text;
+}
+
+Figures between_processes(const Kind& kind, const std::string& directory, bool through_hub, int bytes, int samples) {
+  ZmqOptions options;
+  options.curve_dir = kind.curve ? directory + "/keys" : "";
+  const Line to_answerer;
+  const Line to_driver;
+  std::vector<pid_t> children;  // all forked before this process has a thread
+  children.push_back(
+      in_process_of_its_own([&] { answer(*ZmqChannel::connect(to_answerer.hear(), patient(), options)); }));
+  Figures figures{};
+  if (through_hub) {
+    children.push_back(in_process_of_its_own([&] {
+      const auto first = ZmqChannel::bind(endpoint_of(kind, directory, "driver"), options);
+      const auto second = ZmqChannel::bind(endpoint_of(kind, directory, "answerer"), options);
+      to_driver.tell(first->endpoint());
+      to_answerer.tell(second->endpoint());
+      if (first->wait_for_peer(patient()) && second->wait_for_peer(patient())) {
+        relay(*first, *second);
+      }
+    }));
+    figures = drive(*ZmqChannel::connect(to_driver.hear(), patient(), options), bytes, samples);
+  } else {
+    const auto channel = ZmqChannel::bind(endpoint_of(kind, directory, "direct"), options);
+    to_answerer.tell(channel->endpoint());
+    if (channel->wait_for_peer(patient())) {
+      figures = drive(*channel, bytes, samples);
+    }
+  }
+  for (const pid_t child : children) {
+    ::waitpid(child, nullptr, 0);
+  }
+  return figures;
+}
+
+Figures between_threads(bool through_hub, int bytes, int samples) {
+  auto [driver, hub_first] = transport::make_in_process_pair();
+  auto [hub_second, answerer] = transport::make_in_process_pair();
+  std::thread answering([&, end = through_hub ? answerer.get() : hub_first.get()] { answer(*end); });
+  std::thread relaying([&] {
+    if (through_hub) {
+      relay(*hub_first, *hub_second);
+      hub_second.reset();
+    }
+  });
+  const Figures figures = drive(*driver, bytes, samples);
+  driver.reset();
+  relaying.join();
+  answering.join();
+  return figures;
+}
+
+void print_table(const std::string& directory, int samples) {
+  constexpr Kind kinds[] = {{"in-process (threads)", nullptr, false},
+                            {"ipc", "ipc://", false},
+                            {"tcp loopback", "tcp://127.0.0.1:*", false},
+                            {"tcp loopback, CURVE", "tcp://127.0.0.1:*", true}};
+  std::printf("| channel | bytes each way | direct: median us | p99 us | through a hub: median us | p99 us |\n");
+  std::printf("|---|---|---|---|---|---|\n");
+  for (const Kind& kind : kinds) {
+    for (const int bytes : {200, 2'000, 10'000, 100'000}) {
+      const auto run = [&](bool hub) {
+        return kind.endpoint == nullptr ? between_threads(hub, bytes, samples)
+                                        : between_processes(kind, directory, hub, bytes, samples);
+      };
+      const Figures direct = run(false);
+      const Figures hub = run(true);
+      std::printf("| %s | %d | %.0f | %.0f | %.0f | %.0f |\n", kind.name, bytes, direct.median_us, direct.p99_us,
+                  hub.median_us, hub.p99_us);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Microseconds per exchange");
+  int samples = 2000;
+  app.add_option("--samples", samples, "Exchanges measured per figure")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  std::string directory = "/tmp/grainstep-bench-XXXXXX";
+  if (::mkdtemp(directory.data()) == nullptr) {
+    std::perror("mkdtemp");
+    return 1;
+  }
+  transport::make_keys(directory + "/keys");
+  print_table(directory, samples);
+  std::filesystem::remove_all(directory);
+  return 0;
+}
