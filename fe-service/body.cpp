@@ -1,0 +1,218 @@
+#include "fe-service/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace grainstep::fe {
+
+namespace {
+
+void resize(Nodes& nodes, std::size_t n) {
+  for (Array* array : {&nodes.x, &nodes.y, &nodes.x0, &nodes.y0, &nodes.u, &nodes.v, &nodes.fx, &nodes.fy, &nodes.mass,
+                       &nodes.inverse_mass}) {
+    array->assign(n, 0.0);
+  }
+}
+
+void invert_mass(Nodes& nodes) {
+  std::transform(nodes.mass.begin(), nodes.mass.end(), nodes.inverse_mass.begin(),
+                 [](double m) { return m > 0.0 ? 1.0 / m : 0.0; });
+}
+
+NodeRow row_of(const Nodes& nodes, std::size_t first) {
+  return {nodes.x.data() + first, nodes.y.data() + first, nodes.u.data() + first, nodes.v.data() + first};
+}
+
+int state_components(const Material& material) {
+  return std::holds_alternative<Dh36>(material) ? kPlasticState : kElasticState;
+}
+
+/// Index of a triangle's component 0 in the state of its row.
+std::size_t state_index(int components, int column, int triangle) {
+  const std::size_t batch = static_cast<std::size_t>(column / kBatchQuads);
+  return batch * components * kBatchTriangles + triangle * kBatchQuads + column % kBatchQuads;
+}
+
+}  // namespace
+
+Body::Body(Mesh mesh, std::vector<Material> layers, double depth, const Kernels& kernels)
+    : mesh_(std::move(mesh)), layers_(std::move(layers)), measure_{depth}, kernels_(&kernels) {
+  resize(corners, mesh_.corner_stride() * (mesh_.rows.size() + 1));
+  resize(centres, mesh_.centre_stride() * mesh_.rows.size());
+  scratch_.assign(scratch_size(mesh_.columns), 0.0);
+  place_nodes();
+  share_mass();
+  create_state();
+}
+
+void Body::place_nodes() {
+  for (int row = 0; row <= mesh_.row_count(); ++row) {
+    for (int column = 0; column <= mesh_.columns; ++column) {
+      const std::size_t at = mesh_.corner({row, column});
+      corners.x0[at] = mesh_.corner_x(column);
+      corners.y0[at] = mesh_.level[row];
+    }
+  }
+  for (int row = 0; row < mesh_.row_count(); ++row) {
+    for (int column = 0; column < mesh_.columns; ++column) {
+      const std::size_t at = row * mesh_.centre_stride() + column;
+      centres.x0[at] = 0.5 * (mesh_.corner_x(column) + mesh_.corner_x(column + 1));
+      centres.y0[at] = 0.5 * (mesh_.level[row] + mesh_.level[row + 1]);
+    }
+  }
+  corners.x = corners.x0;
+  corners.y = corners.y0;
+  centres.x = centres.x0;
+  centres.y = centres.y0;
+}
+
+/// A third of every triangle's mass to each of its nodes: a third of a quad's to its centre, a sixth to each corner.
+void Body::share_mass() {
+  for (int row = 0; row < mesh_.row_count(); ++row) {
+    const double density = elastic_part(material(row)).density;
+    for (int column = 0; column < mesh_.columns; ++column) {
+      const double x = centres.x0[row * mesh_.centre_stride() + column];
+      const double quad = density * mesh_.rows[row].quad_area * measure_.thickness(x);
+      centres.mass[row * mesh_.centre_stride() + column] = quad / 3.0;
+      for (const Corner c : {Corner{row, column}, Corner{row, column + 1}, Corner{row + 1, column},
+                             Corner{row + 1, column + 1}}) {
+        corners.mass[mesh_.corner(c)] += quad / 6.0;
+      }
+    }
+  }
+  invert_mass(corners);
+  invert_mass(centres);
+}
+
+void Body::create_state() {
+  for (int row = 0; row < mesh_.row_count(); ++row) {
+    const int components = state_components(material(row));
+    Array state(mesh_.batches() * components * kBatchTriangles, 0.0);
+    if (const auto* steel = std::get_if<Dh36>(&material(row))) {
+      for (std::size_t batch = 0; batch < mesh_.batches(); ++batch) {
+        const auto first = state.begin() + (batch * components + kStaticStrength) * kBatchTriangles;
+        std::fill(first, first + kBatchTriangles, steel->yield_strength);
+      }
+    }
+    state_.push_back(std::move(state));
+  }
+}
+
+RowSweep Body::row_view(int row) const {
+  RowSweep view;
+  const std::size_t upper = mesh_.corner({row, 0});
+  const std::size_t lower = mesh_.corner({row + 1, 0});
+  const std::size_t centre = row * mesh_.centre_stride();
+  view.upper = row_of(corners, upper);
+  view.lower = row_of(corners, lower);
+  view.centre = row_of(centres, centre);
+  view.first_row = row == 0;
+  view.quads = mesh_.columns;
+  return view;
+}
+
+SweepResult Body::sweep(double step) {
+  SweepResult result;
+  result.min_quality = HUGE_VAL;
+  for (int row = 0; row < mesh_.row_count(); ++row) {
+    RowSweep view = row_view(row);
+    const std::size_t upper = mesh_.corner({row, 0});
+    const std::size_t lower = mesh_.corner({row + 1, 0});
+    const std::size_t centre = row * mesh_.centre_stride();
+    view.upper_force = {corners.fx.data() + upper, corners.fy.data() + upper};
+    view.lower_force = {corners.fx.data() + lower, corners.fy.data() + lower};
+    view.centre_force = {centres.fx.data() + centre, centres.fy.data() + centre};
+    view.state = state_[row].data();
+    view.scratch = scratch_.data();
+    view.step = step;
+    if (const auto* steel = std::get_if<Dh36>(&material(row))) {
+      kernels_->sweep_dh36(view, *steel, measure_);
+    } else {
+      kernels_->sweep_elastic(view, std::get<Elastic>(material(row)), measure_);
+    }
+    result.plastic_work += view.plastic_work;
+    result.unconverged += view.unconverged;
+    const double quality = view.min_twice_area / (0.5 * mesh_.rows[row].quad_area);
+    if (!(quality >= result.min_quality)) result.min_quality = quality;
+  }
+  return result;
+}
+
+void Body::kick(double weight) {
+  for (Nodes* nodes : {&corners, &centres}) {
+    kernels_->kick(nodes->u.data(), nodes->fx.data(), nodes->inverse_mass.data(), weight, nodes->u.size());
+    kernels_->kick(nodes->v.data(), nodes->fy.data(), nodes->inverse_mass.data(), weight, nodes->v.size());
+  }
+}
+
+Vec2 Body::hold_supports() {
+  Vec2 impulse{0.0, 0.0};
+  for (int row = 0; row <= mesh_.row_count(); ++row) {
+    const std::size_t left = mesh_.corner({row, 0});
+    const std::size_t right = mesh_.corner({row, mesh_.columns});
+    impulse.x -= corners.mass[left] * corners.u[left] + corners.mass[right] * corners.u[right];
+    impulse.y -= corners.mass[right] * corners.v[right];
+    corners.u[left] = corners.u[right] = corners.v[right] = 0.0;
+    if (!mesh_.symmetric) {
+      impulse.y -= corners.mass[left] * corners.v[left];
+      corners.v[left] = 0.0;
+    }
+  }
+  return impulse;
+}
+
+void Body::drift(double step) {
+  for (Nodes* nodes : {&corners, &centres}) {
+    kernels_->drift(nodes->x.data(), nodes->u.data(), step, nodes->x.size());
+    kernels_->drift(nodes->y.data(), nodes->v.data(), step, nodes->y.size());
+  }
+}
+
+double Body::stable_step() const {
+  double fastest = 0.0;  // largest omega^2
+  for (int row = 0; row < mesh_.row_count(); ++row) {
+    const Elastic& law = elastic_part(material(row));
+    const double stiffness = kernels_->largest_stiffness(row_view(row), law);
+    const double triangle_mass = law.density * 0.25 * mesh_.rows[row].quad_area;  // of a unit thickness
+    fastest = std::max(fastest, 3.0 * stiffness / triangle_mass);
+  }
+  return 2.0 / std::sqrt(fastest);
+}
+
+double Body::mass() const {
+  double sum = 0.0;
+  for (const Nodes* nodes : {&corners, &centres}) {
+    for (const double m : nodes->mass) sum += m;
+  }
+  return sum;
+}
+
+std::size_t Body::memory_bytes() const {
+  std::size_t doubles = 10 * (corners.x.size() + centres.x.size()) + scratch_.size();
+  for (const Array& state : state_) doubles += state.size();
+  return doubles * sizeof(double);
+}
+
+double Body::state(int component, int row, int column, int triangle) const {
+  const int components = state_components(material(row));
+  return state_[row][state_index(components, column, triangle) + component * kBatchTriangles];
+}
+
+Stress Body::stress(int row, int column, int triangle) const {
+  return {state(kXX, row, column, triangle), state(kYY, row, column, triangle), state(kXY, row, column, triangle),
+          state(kZZ, row, column, triangle)};
+}
+
+double Body::plastic_strain(int row, int column, int triangle) const {
+  return state_components(material(row)) > kPlasticStrain ? state(kPlasticStrain, row, column, triangle) : 0.0;
+}
+
+Body::TriangleNodes Body::triangle(int row, int column, int triangle) const {
+  const Corner ring[] = {{row + 1, column}, {row + 1, column + 1}, {row, column + 1}, {row, column}};
+  const auto at = [this](Corner c) { return Vec2{corners.x[mesh_.corner(c)], corners.y[mesh_.corner(c)]}; };
+  const std::size_t centre = row * mesh_.centre_stride() + column;
+  return {at(ring[triangle]), at(ring[(triangle + 1) % 4]), {centres.x[centre], centres.y[centre]}};
+}
+
+}  // namespace grainstep::fe

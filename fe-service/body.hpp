@@ -1,0 +1,85 @@
+/// @file The deformable body: nodes, elements, masses and supports, and the elementary moves of a time step.
+#pragma once
+
+#include <vector>
+
+#include "fe-service/kernel/kernel.hpp"
+#include "fe-service/materials/material.hpp"
+#include "fe-service/mesh.hpp"
+#include "fe-service/triangle.hpp"
+
+namespace grainstep::fe {
+
+/// Arrays over corner or centre nodes, laid out as in kernel/layout.hpp.
+struct Nodes {
+  Array x, y;          ///< m
+  Array x0, y0;        ///< m, undeformed
+  Array u, v;          ///< m/s, at the middle of the step
+  Array fx, fy;        ///< N, internal
+  Array mass;          ///< kg; 0 in the padding
+  Array inverse_mass;  ///< 1/kg; 0 in the padding
+};
+
+struct SweepResult {
+  double plastic_work = 0.0;  ///< J
+  double min_quality = 0.0;   ///< smallest element area over its undeformed area
+  int unconverged = 0;        ///< batches in which the material's iteration did not converge
+};
+
+class Body {
+ public:
+  /// `layers` by layer index of the mesh; depth b in m.
+  Body(Mesh mesh, std::vector<Material> layers, double depth,
+       const Kernels& kernels = *available_kernels().front());
+
+  /// Stress at the end of a step that lasted `step`, and the internal forces there.
+  SweepResult sweep(double step);
+
+  /// Adds weight/mass x internal force to all velocities; weight in s.
+  void kick(double weight);
+
+  /// Stops the supported degrees of freedom: all at x1 = L (and -L), u1 on the plane of symmetry. Returns the impulse,
+  /// N s, that the supports gave for it.
+  Vec2 hold_supports();
+
+  void drift(double step);
+
+  /// 2/omega_max of the stiffest element in its present shape, s: an upper bound of omega_max of the assembled body, so a
+  /// lower one of its true limit. Plastic flow only softens.
+  [[nodiscard]] double stable_step() const;
+
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+  [[nodiscard]] const PlaneStrain& measure() const { return measure_; }
+  [[nodiscard]] const Material& material(int row) const { return layers_[mesh_.rows[row].layer]; }
+  [[nodiscard]] double mass() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  /// State component of a triangle (layout.hpp).
+  [[nodiscard]] double state(int component, int row, int column, int triangle) const;
+  [[nodiscard]] Stress stress(int row, int column, int triangle) const;
+  /// 0 for a material without plasticity.
+  [[nodiscard]] double plastic_strain(int row, int column, int triangle) const;
+  /// Corner a, corner b and centre of a triangle, in m.
+  struct TriangleNodes {
+    Vec2 a, b, centre;
+    [[nodiscard]] double area() const { return 0.5 * cross(a - centre, b - centre); }
+  };
+  [[nodiscard]] TriangleNodes triangle(int row, int column, int triangle) const;
+
+  Nodes corners, centres;
+
+ private:
+  [[nodiscard]] RowSweep row_view(int row) const;
+  void place_nodes();
+  void share_mass();
+  void create_state();
+
+  Mesh mesh_;
+  std::vector<Material> layers_;
+  PlaneStrain measure_;
+  const Kernels* kernels_;
+  std::vector<Array> state_;  ///< by row of elements
+  Array scratch_;
+};
+
+}  // namespace grainstep::fe

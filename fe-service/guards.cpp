@@ -1,0 +1,93 @@
+#include "fe-service/guards.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace grainstep::fe {
+
+namespace {
+
+struct Found {
+  int row = 0, column = 0, triangle = 0;
+  double value = HUGE_VAL;
+};
+
+/// The triangle with the smallest value of measure(row, column, triangle); one that is not a number wins.
+template <class Measure>
+Found smallest(const Body& body, Measure measure) {
+  Found found;
+  for (int row = 0; row < body.mesh().row_count(); ++row) {
+    for (int column = 0; column < body.mesh().columns; ++column) {
+      for (int triangle = 0; triangle < kQuadTriangles; ++triangle) {
+        const double value = measure(row, column, triangle);
+        if (!(value >= found.value) && !std::isnan(found.value)) found = {row, column, triangle, value};
+      }
+    }
+  }
+  return found;
+}
+
+std::string name_of(const Body& body, const Found& element) {
+  static constexpr const char* kNames[] = {"lower", "right", "upper", "left"};
+  const auto nodes = body.triangle(element.row, element.column, element.triangle);
+  return fmt::format("the {} triangle of quad (column {}, row {}), layer {}, now at x1 = {:.6g} m, x2 = {:.6g} m",
+                     kNames[element.triangle], element.column, element.row, body.mesh().rows[element.row].layer,
+                     (nodes.a.x + nodes.b.x + nodes.centre.x) / 3.0, (nodes.a.y + nodes.b.y + nodes.centre.y) / 3.0);
+}
+
+std::string when(const Progress& progress) {
+  return fmt::format("at structure step {} (t = {:.6g} s; the last state that passed all checks is t = {:.6g} s)",
+                     progress.step, progress.time, progress.last_good_time);
+}
+
+}  // namespace
+
+void check_quality(const Body& body, double limit, const Progress& progress) {
+  const Found worst = smallest(body, [&body](int row, int column, int triangle) {
+    return body.triangle(row, column, triangle).area() / (0.25 * body.mesh().rows[row].quad_area);
+  });
+  if (worst.value >= limit) return;
+  throw NumericalError(fmt::format(
+      "element quality: {} has {:.3g} of its undeformed area{}, below guards.element_quality = {:g}, {}; refine the mesh "
+      "(structure.mesh.refinement), take smaller steps (steps.structure), or check speed and stiffness of the impact",
+      name_of(body, worst), worst.value, worst.value <= 0.0 ? " (it is turned inside out)" : "", limit,
+      when(progress)));
+}
+
+void check_finite(const Body& body, const Progress& progress) {
+  for (const Nodes* nodes : {&body.corners, &body.centres}) {
+    for (std::size_t i = 0; i < nodes->x.size(); ++i) {
+      if (std::isfinite(nodes->x[i] + nodes->y[i] + nodes->u[i] + nodes->v[i])) continue;
+      throw NumericalError(fmt::format(
+          "not a number: {} node that was at x1 = {:.6g} m, x2 = {:.6g} m, {}; the step was unstable or the forces were "
+          "not finite: take smaller steps (steps.structure, steps.impactor)",
+          nodes == &body.corners ? "corner" : "centre", nodes->x0[i], nodes->y0[i], when(progress)));
+    }
+  }
+}
+
+void check_fixed_step(const Body& body, double step, const Progress& progress) {
+  const Found worst = smallest(body, [&body](int row, int column, int triangle) {
+    const auto nodes = body.triangle(row, column, triangle);
+    const Elastic& law = elastic_part(body.material(row));
+    const double stiffness = largest_stiffness(law, nodes.a - nodes.centre, nodes.b - nodes.centre);
+    return 2.0 / std::sqrt(12.0 * stiffness / (law.density * body.mesh().rows[row].quad_area));
+  });
+  if (worst.value >= step) return;
+  throw NumericalError(fmt::format(
+      "unstable step: steps.structure fixes it at {:.4g} s, but {} allows {:.4g} s, {}; set steps.structure to auto, which "
+      "takes smaller steps where needed, or fix a smaller one",
+      step, name_of(body, worst), worst.value, when(progress)));
+}
+
+void material_failed(const Body& body, const Progress& progress) {
+  check_finite(body, progress);
+  throw NumericalError(fmt::format(
+      "plastic flow: the local iteration of the material did not converge {}; take smaller steps (steps.structure)",
+      when(progress)));
+}
+
+}  // namespace grainstep::fe

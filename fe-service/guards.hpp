@@ -1,0 +1,27 @@
+/// @file What makes a computed state unusable, found and located. The kernel's own numbers cannot show NaN (-ffast-math).
+#pragma once
+
+#include "fe-service/body.hpp"
+
+namespace grainstep::fe {
+
+/// Where in a run the state stands, for messages.
+struct Progress {
+  std::uint64_t step = 0;         ///< structure steps taken
+  double time = 0.0;              ///< s
+  double last_good_time = 0.0;    ///< s, of the last state that passed all checks
+};
+
+/// Throws NumericalError naming the worst element if its area over its undeformed area is below `limit`.
+void check_quality(const Body& body, double limit, const Progress& progress);
+
+/// Throws NumericalError naming the first node that is not a finite number.
+void check_finite(const Body& body, const Progress& progress);
+
+/// Throws NumericalError naming the element whose stable step is smaller than `step`, which the scene has fixed.
+void check_fixed_step(const Body& body, double step, const Progress& progress);
+
+/// Throws NumericalError: the material's local iteration did not converge.
+[[noreturn]] void material_failed(const Body& body, const Progress& progress);
+
+}  // namespace grainstep::fe

@@ -1,0 +1,18 @@
+/// @file The scene's layers as materials.
+#pragma once
+
+#include <vector>
+
+#include "fe-service/materials/material.hpp"
+
+namespace grainstep::fe {
+
+[[nodiscard]] inline std::vector<Material> make_layers(const scene::Structure& structure) {
+  std::vector<Material> layers;
+  for (int i = 0; i < structure.layers_size(); ++i) {
+    layers.push_back(make_material(structure.layers(i), "structure.layers[" + std::to_string(i) + "]"));
+  }
+  return layers;
+}
+
+}  // namespace grainstep::fe

@@ -1,0 +1,59 @@
+#include "fe-service/preview.hpp"
+
+#include "base/error.hpp"
+#include "fe-service/body.hpp"
+#include "fe-service/deformable.hpp"
+#include "fe-service/layers.hpp"
+#include "fe-service/rigid.hpp"
+
+namespace grainstep::fe {
+
+namespace {
+
+// Measured with bench_fe_kernel (AVX-512, one core); a layer that may flow is taken to do so everywhere.
+constexpr double kElasticSeconds = 1.0 / 200e6;
+constexpr double kPlasticSeconds = 1.0 / 40e6;
+
+double seconds_per_element_step(const Mesh& mesh, const std::vector<Material>& layers) {
+  double sum = 0.0;
+  for (const ElementRow& row : mesh.rows) {
+    sum += std::holds_alternative<Dh36>(layers[row.layer]) ? kPlasticSeconds : kElasticSeconds;
+  }
+  return sum / static_cast<double>(mesh.rows.size());
+}
+
+void preview_beam(const scene::Structure& structure, double depth, StructurePreview& found) {
+  const Mesh mesh = make_mesh(structure);
+  const std::vector<Material> layers = make_layers(structure);
+  found.elements = mesh.triangles();
+  found.nodes = mesh.nodes();
+  found.element_size = mesh.width;
+  // All columns are alike: one is enough for the step, and tells what each adds to the memory.
+  Mesh column = mesh;
+  column.columns = 1;
+  column.length = mesh.width;
+  const Body body(column, layers, depth);
+  found.stable_step = body.stable_step();
+  found.preferred_step = kStepSafety * found.stable_step;
+  found.memory_bytes = body.memory_bytes() * mesh.batches();
+  found.seconds_per_element_step = seconds_per_element_step(mesh, layers);
+}
+
+}  // namespace
+
+StructurePreview preview(const scene::Structure& structure, scene::Symmetry symmetry, double depth) {
+  if (symmetry != scene::SYMMETRY_PLANE_STRAIN) throw InputError("symmetry: grainstep-fe knows `plane_strain` only");
+  if (structure.layers().empty()) throw InputError("structure.layers: none given; at least one is needed");
+  StructurePreview found;
+  found.yield_strength = structure.layers(0).yield_strength();
+  found.density = structure.layers(0).density();
+  for (const scene::Layer& layer : structure.layers()) found.areal_mass += layer.density() * layer.thickness();
+  if (structure.type() == scene::Structure::TYPE_RIGID) {
+    found.stable_step = found.preferred_step = kNoStepLimit;
+  } else {
+    preview_beam(structure, depth, found);
+  }
+  return found;
+}
+
+}  // namespace grainstep::fe
