@@ -75,8 +75,8 @@ void Body::share_mass() {
       const double x = centres.x0[row * mesh_.centre_stride() + column];
       const double quad = density * mesh_.rows[row].quad_area * measure_.thickness(x);
       centres.mass[row * mesh_.centre_stride() + column] = quad / 3.0;
-      for (const Corner c : {Corner{row, column}, Corner{row, column + 1}, Corner{row + 1, column},
-                             Corner{row + 1, column + 1}}) {
+      for (const Corner c :
+           {Corner{row, column}, Corner{row, column + 1}, Corner{row + 1, column}, Corner{row + 1, column + 1}}) {
         corners.mass[mesh_.corner(c)] += quad / 6.0;
       }
     }

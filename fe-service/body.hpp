@@ -29,8 +29,7 @@ struct SweepResult {
 class Body {
  public:
   /// `layers` by layer index of the mesh; depth b in m.
-  Body(Mesh mesh, std::vector<Material> layers, double depth,
-       const Kernels& kernels = *available_kernels().front());
+  Body(Mesh mesh, std::vector<Material> layers, double depth, const Kernels& kernels = *available_kernels().front());
 
   /// Stress at the end of a step that lasted `step`, and the internal forces there.
   SweepResult sweep(double step);
@@ -44,8 +43,8 @@ class Body {
 
   void drift(double step);
 
-  /// 2/omega_max of the stiffest element in its present shape, s: an upper bound of omega_max of the assembled body, so a
-  /// lower one of its true limit. Plastic flow only softens.
+  /// 2/omega_max of the stiffest element in its present shape, s: an upper bound of omega_max of the assembled body, so
+  /// a lower one of its true limit. Plastic flow only softens.
   [[nodiscard]] double stable_step() const;
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }

@@ -12,9 +12,7 @@
 namespace grainstep::fe {
 
 Deformable::Deformable(const scene::Structure& structure, const scene::Guards& guards, double depth)
-    : guards_(guards),
-      body_(make_mesh(structure), make_layers(structure), depth),
-      stable_step_(body_.stable_step()) {
+    : guards_(guards), body_(make_mesh(structure), make_layers(structure), depth), stable_step_(body_.stable_step()) {
   for (const Corner c : body_.mesh().surface()) surface_.push_back(body_.mesh().corner(c));
   travelled_.resize(surface_.size());
 }
@@ -40,8 +38,9 @@ void Deformable::fill_ready(wire::Ready& ready) const {
 void Deformable::start(const wire::Start& start) {
   check_start(start);
   if (!(start.window() > 0.0) || start.structure_steps() == 0) {
-    throw InputError(fmt::format("start: needs a window above 0 s and at least 1 structure step in it, found {:g} s and {}",
-                                 start.window(), start.structure_steps()));
+    throw InputError(
+        fmt::format("start: needs a window above 0 s and at least 1 structure step in it, found {:g} s and {}",
+                    start.window(), start.structure_steps()));
   }
   window_length_ = start.window();
   substeps_ = start.structure_steps();
@@ -83,7 +82,8 @@ Deformable::Received Deformable::kick(const wire::Forces& forces, double interna
   for (std::size_t k = 0; k < surface_.size(); ++k) {
     gained.work += work(k);
     const std::size_t i = surface_[k];
-    const Vec2 impulse = share * Vec2{forces.impulse(static_cast<int>(2 * k)), forces.impulse(static_cast<int>(2 * k + 1))};
+    const Vec2 impulse =
+        share * Vec2{forces.impulse(static_cast<int>(2 * k)), forces.impulse(static_cast<int>(2 * k + 1))};
     body_.corners.u[i] += impulse.x * body_.corners.inverse_mass[i];
     body_.corners.v[i] += impulse.y * body_.corners.inverse_mass[i];
     gained.interface = gained.interface + impulse;

@@ -6,9 +6,9 @@
 /// step (0 at t = 0, where J comes with half its weight already). q grows where the stable step shrinks.
 ///
 /// Reports at t(n) hold the velocity interpolated to t(n): V(n) = V(n-1/2) + w (V(n+1/2) - V(n-1/2)) with w =
-/// delta_before/(delta_before + delta), i.e. 1/2 with equal steps and 0 at the start. The ledgers count the same fraction w
-/// of the impulses of that step, of the surface and of the supports: so they close to round-off. For q = 1 the
-/// interface impulse at t(n) is the sum of J(m < n) plus J(n)/2.
+/// delta_before/(delta_before + delta), i.e. 1/2 with equal steps and 0 at the start. The ledgers count the same
+/// fraction w of the impulses of that step, of the surface and of the supports: so they close to round-off. For q = 1
+/// the interface impulse at t(n) is the sum of J(m < n) plus J(n)/2.
 #pragma once
 
 #include "fe-service/guards.hpp"
@@ -45,8 +45,8 @@ class Deformable final : public WindowedStructure {
  private:
   /// Sums since t = 0.
   struct Received {
-    Vec2 interface{0.0, 0.0}, supports{0.0, 0.0};  ///< N s
-    double work = 0.0;                             ///< J, through the surface
+    Vec2 interface { 0.0, 0.0 }, supports{0.0, 0.0};  ///< N s
+    double work = 0.0;                                ///< J, through the surface
   };
 
   [[nodiscard]] Received kick(const wire::Forces& forces, double internal_weight);

@@ -51,7 +51,8 @@ void check_quality(const Body& body, double limit, const Progress& progress) {
   });
   if (worst.value >= limit) return;
   throw NumericalError(fmt::format(
-      "element quality: {} has {:.3g} of its undeformed area{}, below guards.element_quality = {:g}, {}; refine the mesh "
+      "element quality: {} has {:.3g} of its undeformed area{}, below guards.element_quality = {:g}, {}; refine the "
+      "mesh "
       "(structure.mesh.refinement), take smaller steps (steps.structure), or check speed and stiffness of the impact",
       name_of(body, worst), worst.value, worst.value <= 0.0 ? " (it is turned inside out)" : "", limit,
       when(progress)));
@@ -61,10 +62,11 @@ void check_finite(const Body& body, const Progress& progress) {
   for (const Nodes* nodes : {&body.corners, &body.centres}) {
     for (std::size_t i = 0; i < nodes->x.size(); ++i) {
       if (std::isfinite(nodes->x[i] + nodes->y[i] + nodes->u[i] + nodes->v[i])) continue;
-      throw NumericalError(fmt::format(
-          "not a number: {} node that was at x1 = {:.6g} m, x2 = {:.6g} m, {}; the step was unstable or the forces were "
-          "not finite: take smaller steps (steps.structure, steps.impactor)",
-          nodes == &body.corners ? "corner" : "centre", nodes->x0[i], nodes->y0[i], when(progress)));
+      throw NumericalError(
+          fmt::format("not a number: {} node that was at x1 = {:.6g} m, x2 = {:.6g} m, {}; the step was unstable or "
+                      "the forces were "
+                      "not finite: take smaller steps (steps.structure, steps.impactor)",
+                      nodes == &body.corners ? "corner" : "centre", nodes->x0[i], nodes->y0[i], when(progress)));
     }
   }
 }
@@ -77,10 +79,11 @@ void check_fixed_step(const Body& body, double step, const Progress& progress) {
     return 2.0 / std::sqrt(12.0 * stiffness / (law.density * body.mesh().rows[row].quad_area));
   });
   if (worst.value >= step) return;
-  throw NumericalError(fmt::format(
-      "unstable step: steps.structure fixes it at {:.4g} s, but {} allows {:.4g} s, {}; set steps.structure to auto, which "
-      "takes smaller steps where needed, or fix a smaller one",
-      step, name_of(body, worst), worst.value, when(progress)));
+  throw NumericalError(
+      fmt::format("unstable step: steps.structure fixes it at {:.4g} s, but {} allows {:.4g} s, {}; set "
+                  "steps.structure to auto, which "
+                  "takes smaller steps where needed, or fix a smaller one",
+                  step, name_of(body, worst), worst.value, when(progress)));
 }
 
 void material_failed(const Body& body, const Progress& progress) {

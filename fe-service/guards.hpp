@@ -1,4 +1,5 @@
-/// @file What makes a computed state unusable, found and located. The kernel's own numbers cannot show NaN (-ffast-math).
+/// @file What makes a computed state unusable, found and located. The kernel's own numbers cannot show NaN
+/// (-ffast-math).
 #pragma once
 
 #include "fe-service/body.hpp"
@@ -7,9 +8,9 @@ namespace grainstep::fe {
 
 /// Where in a run the state stands, for messages.
 struct Progress {
-  std::uint64_t step = 0;         ///< structure steps taken
-  double time = 0.0;              ///< s
-  double last_good_time = 0.0;    ///< s, of the last state that passed all checks
+  std::uint64_t step = 0;       ///< structure steps taken
+  double time = 0.0;            ///< s
+  double last_good_time = 0.0;  ///< s, of the last state that passed all checks
 };
 
 /// Throws NumericalError naming the worst element if its area over its undeformed area is below `limit`.

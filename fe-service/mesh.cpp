@@ -1,7 +1,7 @@
 #include "fe-service/mesh.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 
 #include "base/error.hpp"
 
@@ -25,7 +25,8 @@ void check_layer(const scene::Structure& structure, int layer, double size) {
   const double thickness = structure.layers(layer).thickness();
   if (size <= thickness * (1.0 + 1e-9)) return;
   throw InputError(fmt::format(
-      "structure.mesh.refinement: mesh coarser than the face: {:g} gives elements of {:g} m, but structure.layers[{}] is "
+      "structure.mesh.refinement: mesh coarser than the face: {:g} gives elements of {:g} m, but structure.layers[{}] "
+      "is "
       "only {:g} m thick; use a refinement of at least {:g}",
       structure.mesh().refinement(), size, layer, thickness, structure.mesh().refinement() * size / thickness));
 }

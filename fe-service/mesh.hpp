@@ -12,9 +12,9 @@
 namespace grainstep::fe {
 
 struct ElementRow {
-  int layer;            ///< index into the scene's layers
-  double height;        ///< m
-  double quad_area;     ///< m^2, undeformed
+  int layer;         ///< index into the scene's layers
+  double height;     ///< m
+  double quad_area;  ///< m^2, undeformed
 };
 
 /// A corner node by row and column.

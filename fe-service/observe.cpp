@@ -104,9 +104,7 @@ void fill_cells(const Body& body, wire::Snapshot& snapshot) {
 
 }  // namespace
 
-Velocities Velocities::of(const Body& body) {
-  return {body.corners.u, body.corners.v, body.centres.u, body.centres.v};
-}
+Velocities Velocities::of(const Body& body) { return {body.corners.u, body.corners.v, body.centres.u, body.centres.v}; }
 
 Velocities Velocities::blend(const Velocities& before, const Velocities& after, double weight) {
   Velocities result = before;

@@ -1,5 +1,5 @@
-/// @file What is reported about a body at an instant: ledgers, observables, snapshots. Velocities are handed in, for the
-/// body's own belong to the middle of a step.
+/// @file What is reported about a body at an instant: ledgers, observables, snapshots. Velocities are handed in, for
+/// the body's own belong to the middle of a step.
 #pragma once
 
 #include "fe-service/body.hpp"
@@ -17,9 +17,9 @@ struct Velocities {
   static Velocities blend(const Velocities& before, const Velocities& after, double weight);
 };
 
-[[nodiscard]] double kinetic_energy(const Body& body, const Velocities& at);   ///< J
-[[nodiscard]] Vec2 linear_momentum(const Body& body, const Velocities& at);    ///< N s
-[[nodiscard]] double elastic_energy(const Body& body);                         ///< J, from the stress
+[[nodiscard]] double kinetic_energy(const Body& body, const Velocities& at);     ///< J
+[[nodiscard]] Vec2 linear_momentum(const Body& body, const Velocities& at);      ///< N s
+[[nodiscard]] double elastic_energy(const Body& body);                           ///< J, from the stress
 [[nodiscard]] double max_surface_speed(const Body& body, const Velocities& at);  ///< m/s
 
 struct PlasticExtent {

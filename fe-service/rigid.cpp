@@ -5,7 +5,8 @@
 namespace grainstep::fe {
 
 Rigid::Rigid(const scene::Structure& structure) {
-  if (structure.layers().empty()) throw InputError("structure.layers: none given; a rigid target takes its depth from them");
+  if (structure.layers().empty())
+    throw InputError("structure.layers: none given; a rigid target takes its depth from them");
   double thickness = 0.0;
   for (const scene::Layer& layer : structure.layers()) thickness += layer.thickness();
   const double half = structure.half_span();
@@ -36,7 +37,8 @@ void Rigid::start(const wire::Start& start) { check_start(start); }
 void Rigid::advance(const wire::Forces& forces, participant::Due /*due*/, wire::Kinematics& next) {
   check_forces(forces, outline_.size());
   Vec2 impulse{0.0, 0.0};
-  for (int i = 0; i + 1 < forces.impulse_size(); i += 2) impulse = impulse + Vec2{forces.impulse(i), forces.impulse(i + 1)};
+  for (int i = 0; i + 1 < forces.impulse_size(); i += 2)
+    impulse = impulse + Vec2{forces.impulse(i), forces.impulse(i + 1)};
   counted_ = received_ + (window_ == 0 ? 0.0 : 0.5) * impulse;
   received_ = received_ + impulse;
   ++window_;

@@ -26,8 +26,8 @@ class Rigid final : public WindowedStructure {
  private:
   std::vector<Vec2> outline_;  ///< m, structure on the right-hand side
   std::uint64_t window_ = 0;
-  Vec2 received_{0.0, 0.0};        ///< N s, all impulses
-  Vec2 counted_{0.0, 0.0};         ///< N s, those up to t(n): half of the last one
+  Vec2 received_{0.0, 0.0};  ///< N s, all impulses
+  Vec2 counted_{0.0, 0.0};   ///< N s, those up to t(n): half of the last one
 };
 
 }  // namespace grainstep::fe

@@ -1,5 +1,5 @@
-/// @file One constant-strain triangle (a, b, centre), counter-clockwise: its kinematics, its nodal forces and its largest
-/// frequency. Vectors are relative to the centre node.
+/// @file One constant-strain triangle (a, b, centre), counter-clockwise: its kinematics, its nodal forces and its
+/// largest frequency. Vectors are relative to the centre node.
 #pragma once
 
 #include "fe-service/materials/elastic.hpp"
@@ -22,8 +22,8 @@ struct TriangleMotion {
   double twice_area;     ///< m^2, at the middle of the step
 };
 
-/// Increments over a step from the positions at its middle and the displacements during it. With gradients at the middle,
-/// a finite rigid rotation gives no strain at all, and its spin increment W = 2 tan(theta/2) exactly.
+/// Increments over a step from the positions at its middle and the displacements during it. With gradients at the
+/// middle, a finite rigid rotation gives no strain at all, and its spin increment W = 2 tan(theta/2) exactly.
 GS_ALWAYS_INLINE TriangleMotion motion(Vec2 middle_a, Vec2 middle_b, Vec2 moved_a, Vec2 moved_b) {
   const double twice_area = cross(middle_a, middle_b);
   const double inverse = 1.0 / twice_area;
@@ -40,9 +40,9 @@ GS_ALWAYS_INLINE Vec2 traction(const Stress& s, Vec2 d) {
   return {0.5 * (s.xx * d.y - s.xy * d.x), 0.5 * (s.xy * d.y - s.yy * d.x)};
 }
 
-/// Largest eigenvalue of the stiffness matrix (unit thickness) in Pa. omega_max^2 = 3/(density x undeformed area) x this,
-/// with a third of the mass at each node. Exact: in the principal axes of G = sum of grad N (x) grad N, shear decouples,
-/// and tr G = S/(4 A^2), det G = 3/(4 A^2) with S the sum of the squared sides.
+/// Largest eigenvalue of the stiffness matrix (unit thickness) in Pa. omega_max^2 = 3/(density x undeformed area) x
+/// this, with a third of the mass at each node. Exact: in the principal axes of G = sum of grad N (x) grad N, shear
+/// decouples, and tr G = S/(4 A^2), det G = 3/(4 A^2) with S the sum of the squared sides.
 GS_ALWAYS_INLINE double largest_stiffness(const Elastic& law, Vec2 a, Vec2 b) {
   const double twice_area = cross(a, b);
   const Vec2 c = a - b;

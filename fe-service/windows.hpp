@@ -1,4 +1,5 @@
-/// @file A structure that is moved window by window (participant/backend.hpp has the order of calls), whatever its kind.
+/// @file A structure that is moved window by window (participant/backend.hpp has the order of calls), whatever its
+/// kind.
 #pragma once
 
 #include <memory>

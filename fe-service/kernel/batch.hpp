@@ -9,7 +9,7 @@ namespace {
 
 struct Batch {
   // Corners relative to the centre, counter-clockwise from the lower left.
-  double arm_x[4][kBatchQuads], arm_y[4][kBatchQuads];  ///< m, at the end of the step
+  double arm_x[4][kBatchQuads], arm_y[4][kBatchQuads];    ///< m, at the end of the step
   double rate_u[4][kBatchQuads], rate_v[4][kBatchQuads];  ///< m/s, velocities relative to the centre's
   double centre_x[kBatchQuads], centre_u[kBatchQuads];
 

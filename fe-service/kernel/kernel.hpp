@@ -1,5 +1,6 @@
-/// @file The element loop and the node loops, compiled from one source (kernel.cpp) for three instruction sets and chosen
-/// at run time. Nothing here allocates or throws, and nothing tests for NaN: the kernel is compiled with -ffast-math.
+/// @file The element loop and the node loops, compiled from one source (kernel.cpp) for three instruction sets and
+/// chosen at run time. Nothing here allocates or throws, and nothing tests for NaN: the kernel is compiled with
+/// -ffast-math.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +34,10 @@ struct RowSweep {
   int quads = 0;
   double step = 0.0;  ///< s
   // results
-  double plastic_work = 0.0;      ///< J, of this step
-  double min_twice_area = 0.0;    ///< m^2, at the end of the step
-  int yielding = 0;               ///< batches with plastic flow
-  int unconverged = 0;            ///< batches whose local iteration did not converge
+  double plastic_work = 0.0;    ///< J, of this step
+  double min_twice_area = 0.0;  ///< m^2, at the end of the step
+  int yielding = 0;             ///< batches with plastic flow
+  int unconverged = 0;          ///< batches whose local iteration did not converge
 };
 
 constexpr std::size_t padded(int quads) {

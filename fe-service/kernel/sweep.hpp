@@ -1,5 +1,5 @@
-/// @file The element loop: one row of quads, eight at a time: kinematics and elastic predictor, correction by the material,
-/// nodal forces. Measure and material are template parameters: there is no second copy of this loop.
+/// @file The element loop: one row of quads, eight at a time: kinematics and elastic predictor, correction by the
+/// material, nodal forces. Measure and material are template parameters: there is no second copy of this loop.
 #pragma once
 
 #include "fe-service/kernel/correct.hpp"
@@ -75,7 +75,7 @@ GS_ALWAYS_INLINE Pull pull(const Batch& batch, const Measure& measure, const dou
 
 /// Rows of corner contributions, so that neighbouring batches need not wait for each other's stores.
 struct Contributions {
-  double* left_x;   ///< lane i: to node i
+  double* left_x;  ///< lane i: to node i
   double* left_y;
   double* right_x;  ///< lane i: to node i+1
   double* right_y;

@@ -1,7 +1,8 @@
 /// @file Flow strength of DH36 steel, equation (3.3):
-///     sigma_Y(ep, rate) = Y [1 + A ep^n] [1 + C ln(rate/rate0)],   Y = 470 MPa, A = 1.5, n = 0.4, C = 0.015, rate0 = 1/s,
-/// which is Johnson-Cook's law without temperature. The factor of the rate is 1 below rate0: our choice, for (3.3) would
-/// fall below zero there.
+///     sigma_Y(ep, rate) = Y [1 + A ep^n] [1 + C ln(rate/rate0)],   Y = 470 MPa, A = 1.5, n = 0.4, C = 0.015, rate0 =
+///     1/s,
+/// which is Johnson-Cook's law without temperature. The factor of the rate is 1 below rate0: our choice, for (3.3)
+/// would fall below zero there.
 #pragma once
 
 #include "fe-service/materials/elastic.hpp"

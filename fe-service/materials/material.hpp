@@ -1,4 +1,5 @@
-/// @file The materials a layer may have. A new law is a struct in its own file, an entry here and a correct() in the kernel.
+/// @file The materials a layer may have. A new law is a struct in its own file, an entry here and a correct() in the
+/// kernel.
 #pragma once
 
 #include <string>

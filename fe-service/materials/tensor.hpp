@@ -34,8 +34,8 @@ GS_ALWAYS_INLINE double von_mises(const Stress& stress) {
   return std::sqrt(1.5 * contract(s, s));
 }
 
-/// Rotates by the angle theta about x3, given tan(theta/2) (Hughes and Winget 1980: R = (I - W/2)^-1 (I + W/2), which is
-/// an exact rotation whatever the spin increment W).
+/// Rotates by the angle theta about x3, given tan(theta/2) (Hughes and Winget 1980: R = (I - W/2)^-1 (I + W/2), which
+/// is an exact rotation whatever the spin increment W).
 GS_ALWAYS_INLINE Stress rotate(const Stress& s, double half_tangent) {
   const double t2 = half_tangent * half_tangent;
   const double scale = 1.0 / (1.0 + t2);

@@ -1,0 +1,138 @@
+// The vector kernel against a plain loop, on every instruction set that this machine has and for every remainder.
+#include "fe-service/kernel/kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "fe-service/body.hpp"
+#include "fe-service/layers.hpp"
+#include "reference_loop.hpp"
+#include "scenes.hpp"
+
+namespace grainstep::fe {
+namespace {
+
+/// Two layers of quads of 1 mm, DH36 on top of elastic.
+Body layered_body(int columns, const Kernels& kernels) {
+  scene::Structure structure = test::beam(scene::Layer::MATERIAL_DH36, columns * 1e-3, 2e-3, 2);
+  *structure.add_layers() = test::steel(scene::Layer::MATERIAL_ELASTIC, 2e-3);
+  return {make_mesh(structure), make_layers(structure), 1e-3, kernels};
+}
+
+/// A smooth motion that stretches, shears and turns, differently everywhere.
+void prescribe(Body& body, double time) {
+  for (Nodes* nodes : {&body.corners, &body.centres}) {
+    for (std::size_t i = 0; i < nodes->x.size(); ++i) {
+      const double x = nodes->x0[i];
+      const double y = nodes->y0[i];
+      nodes->u[i] = 40.0 * std::sin(300.0 * x + 1.0) + 2e4 * y * std::cos(2e5 * time);
+      nodes->v[i] = -60.0 * std::sin(500.0 * x) + 1e4 * y;
+    }
+  }
+}
+
+class EveryKernel : public testing::TestWithParam<std::tuple<const Kernels*, int>> {};
+
+TEST_P(EveryKernel, AgreesWithThePlainLoop) {
+  const auto [kernels, columns] = GetParam();
+  Body body = layered_body(columns, *kernels);
+  test::ReferenceLoop reference(body);
+  const double step = 5e-8;
+  double plastic_work = 0.0;
+  double reference_work = 0.0;
+  for (int n = 0; n < 40; ++n) {
+    prescribe(body, n * step);
+    body.drift(step);
+    plastic_work += body.sweep(step).plastic_work;
+    reference.sweep(step);
+    reference_work += reference.plastic_work;
+  }
+  double force_scale = 0.0;
+  for (const auto& force : reference.force) force_scale = std::max(force_scale, force.norm());
+  // The return's tolerance, 1e-10 of the flow strength and step, and 40 steps.
+  for (std::size_t i = 0; i < reference.force.size(); ++i) {
+    EXPECT_LT((reference.kernel_force(static_cast<int>(i)) - reference.force[i]).norm(), 4e-9 * force_scale) << i;
+  }
+  double flowed = 0.0;
+  for (const auto& t : reference.triangles) {
+    const Stress s = body.stress(t.row, t.column, t.triangle);
+    EXPECT_NEAR(s.xx, t.stress(0, 0), 4e-9 * 470e6);
+    EXPECT_NEAR(s.yy, t.stress(1, 1), 4e-9 * 470e6);
+    EXPECT_NEAR(s.xy, t.stress(0, 1), 4e-9 * 470e6);
+    EXPECT_NEAR(s.zz, t.stress(2, 2), 4e-9 * 470e6);
+    EXPECT_NEAR(body.plastic_strain(t.row, t.column, t.triangle), t.plastic_strain, 1e-11);
+    flowed = std::max(flowed, t.plastic_strain);
+  }
+  EXPECT_GT(flowed, 1e-3);  // the comparison has seen real flow
+  EXPECT_NEAR(plastic_work, reference_work, 1e-8 * reference_work);
+}
+
+std::string name_of(const testing::TestParamInfo<std::tuple<const Kernels*, int>>& info) {
+  return std::string(std::get<0>(info.param)->name) + "_" + std::to_string(std::get<1>(info.param)) + "_columns";
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel,
+                         testing::Combine(testing::ValuesIn(available_kernels().begin(), available_kernels().end()),
+                                          testing::Values(1, 7, 8, 9, 16, 21)),
+                         name_of);
+
+// A column's result does not depend on how many columns follow it: lanes beyond the end have no effect at all.
+TEST(Remainder, PaddingHasNoEffectOnTheOthers) {
+  const double step = 5e-8;
+  Body shorter = layered_body(13, *available_kernels().front());
+  Body longer = layered_body(24, *available_kernels().front());
+  for (int n = 0; n < 20; ++n) {
+    for (Body* body : {&shorter, &longer}) {
+      for (Nodes* nodes : {&body->corners, &body->centres}) {
+        for (std::size_t i = 0; i < nodes->x.size(); ++i) nodes->v[i] = 3e4 * nodes->y0[i];
+      }
+      body->drift(step);
+      body->sweep(step);
+    }
+  }
+  for (int row = 0; row < shorter.mesh().row_count(); ++row) {
+    for (int column = 0; column < 13; ++column) {
+      for (int t = 0; t < kQuadTriangles; ++t) {
+        EXPECT_NEAR(shorter.stress(row, column, t).yy, longer.stress(row, column, t).yy, 1e-3);
+        EXPECT_NEAR(shorter.plastic_strain(row, column, t), longer.plastic_strain(row, column, t), 1e-13);
+      }
+    }
+  }
+}
+
+TEST(Kernel, SameInputSameBits) {
+  const auto run = [] {
+    Body body = layered_body(21, *available_kernels().front());
+    for (int n = 0; n < 20; ++n) {
+      prescribe(body, n * 5e-8);
+      body.drift(5e-8);
+      body.sweep(5e-8);
+    }
+    return body;
+  };
+  const Body first = run();
+  const Body second = run();
+  const std::size_t bytes = first.corners.fx.size() * sizeof(double);
+  EXPECT_EQ(std::memcmp(first.corners.fx.data(), second.corners.fx.data(), bytes), 0);
+  EXPECT_EQ(std::memcmp(first.corners.fy.data(), second.corners.fy.data(), bytes), 0);
+}
+
+TEST(Kernel, StableStepIsTheSmallestTriangles) {
+  for (const Kernels* kernels : available_kernels()) {
+    Body body = layered_body(11, *kernels);
+    prescribe(body, 0.0);
+    body.drift(1e-6);
+    double smallest = HUGE_VAL;
+    for (const auto& t : test::ReferenceLoop(body).triangles) {
+      const auto nodes = body.triangle(t.row, t.column, t.triangle);
+      const Elastic& law = elastic_part(body.material(t.row));
+      const double stiffness = largest_stiffness(law, nodes.a - nodes.centre, nodes.b - nodes.centre);
+      smallest = std::min(smallest, 2.0 / std::sqrt(3.0 * stiffness / (law.density * t.area0)));
+    }
+    EXPECT_NEAR(body.stable_step(), smallest, 1e-12 * smallest) << kernels->name;
+  }
+}
+
+}  // namespace
+}  // namespace grainstep::fe

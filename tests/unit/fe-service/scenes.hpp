@@ -1,0 +1,45 @@
+/// @file Small structures for tests.
+#pragma once
+
+#include "grainstep/wire.pb.h"
+
+namespace grainstep::fe::test {
+
+inline scene::Layer steel(scene::Layer::Material material, double thickness) {
+  scene::Layer layer;
+  layer.set_material(material);
+  layer.set_thickness(thickness);
+  layer.set_density(8000.0);
+  layer.set_young(200e9);
+  layer.set_poisson(0.3);
+  layer.set_yield_strength(470e6);
+  layer.set_hardening_factor(1.5);
+  layer.set_hardening_exponent(0.4);
+  layer.set_rate_factor(0.015);
+  layer.set_reference_rate(1.0);
+  return layer;
+}
+
+inline scene::Structure beam(scene::Layer::Material material, double half_span, double thickness, double refinement) {
+  scene::Structure structure;
+  structure.set_type(scene::Structure::TYPE_BEAM);
+  structure.set_half_span(half_span);
+  structure.set_extent(scene::Structure::EXTENT_HALF);
+  structure.mutable_mesh()->set_refinement(refinement);
+  *structure.add_layers() = steel(material, thickness);
+  return structure;
+}
+
+inline wire::Setup setup_of(const scene::Structure& structure, double depth = 1e-3) {
+  wire::Setup setup;
+  setup.set_protocol(wire::PROTOCOL_VERSION);
+  setup.set_scene_hash(42);
+  setup.set_symmetry(scene::SYMMETRY_PLANE_STRAIN);
+  setup.set_depth(depth);
+  setup.set_mirror(structure.extent() == scene::Structure::EXTENT_HALF);
+  *setup.mutable_structure()->mutable_structure() = structure;
+  setup.mutable_structure()->mutable_guards()->set_element_quality(0.01);
+  return setup;
+}
+
+}  // namespace grainstep::fe::test
