@@ -1,0 +1,39 @@
+/// @file The surface between two exchanges: it moves linearly from where it was to where it is told to be.
+#pragma once
+
+#include <vector>
+
+#include "grainstep/wire.pb.h"
+#include "surface/polyline.hpp"
+
+namespace grainstep::dem {
+
+class MovingSurface {
+ public:
+  /// Throws InputError when the message is no surface in the plane.
+  explicit MovingSurface(const wire::Surface& surface);
+
+  [[nodiscard]] std::size_t node_count() const { return now_.node_count(); }
+
+  /// Where the window in progress ends (m) and the mean velocity in it (m/s), node-major.
+  void aim(const double* position, const double* velocity);
+
+  /// Moves to `fraction` of the window in progress: 0 where it began, 1 where it ends.
+  void move_to(double fraction);
+
+  /// The window in progress has ended: the next one begins here.
+  void arrive() { from_ = to_; }
+
+  [[nodiscard]] const surface::Polyline& now() const { return now_; }
+  [[nodiscard]] const std::vector<surface::Vec2>& velocity() const { return velocity_; }
+
+  /// Largest distance (m) of a node, now and at the window's end, from where remember() was last called.
+  [[nodiscard]] double wandered() const;
+  void remember();
+
+ private:
+  surface::Polyline now_;
+  std::vector<surface::Vec2> from_, to_, velocity_, remembered_;
+};
+
+}  // namespace grainstep::dem

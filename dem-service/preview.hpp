@@ -1,0 +1,24 @@
+/// @file What a slug will cost and how it will step, before anything is started (`grainstep check`). No LAMMPS, no MPI.
+#pragma once
+
+#include <cstdint>
+
+#include "grainstep/scene.pb.h"
+
+namespace grainstep::dem {
+
+struct ImpactorPreview {
+  std::uint64_t particles = 0;
+  double particle_mass = 0.0;              ///< kg
+  double contact_time = 0.0;               ///< s, t_e of a pair (2.4)
+  double stable_step = 0.0;                ///< s
+  double preferred_step = 0.0;             ///< s, what `auto` takes: t_e/10
+  std::uint64_t memory_bytes = 0;          ///< estimate
+  double seconds_per_particle_step = 0.0;  ///< estimate, one core
+};
+
+/// Throws InputError for what this impactor cannot compute, e.g. a solid fraction above what its packing reaches.
+[[nodiscard]] ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
+                                      bool mirror, const scene::Guards& guards);
+
+}  // namespace grainstep::dem

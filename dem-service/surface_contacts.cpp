@@ -1,0 +1,126 @@
+#include "dem-service/surface_contacts.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace grainstep::dem {
+namespace {
+
+using surface::ClosestPoint;
+using surface::in_space;
+using surface::Vec2;
+using surface::Vec3;
+
+std::string tunnelled(const ParticleArrays& particles, int i, const ClosestPoint& at) {
+  const double* x = particles.position[i];
+  std::ostringstream text;
+  text << "particle " << particles.identity[i] << " passed through the surface (tunnelled) at x1 = " << x[0]
+       << " m, x2 = " << x[1] << " m: its centre lies " << -at.distance << " m inside, more than its diameter "
+       << 2.0 * particles.radius[i] << " m; lower steps.impactor or raise normal_stiffness";
+  return text.str();
+}
+
+}  // namespace
+
+SurfaceContacts::SurfaceContacts(const SurfaceContactSettings& settings) : settings_(settings) {}
+
+void SurfaceContacts::rebuild(const ParticleArrays& particles, MovingSurface& surface) {
+  // Outside, contact begins at one radius. Inside, the centre is followed to one diameter and the radius that it may
+  // move in one step: whoever passes through is seen.
+  const double reach = 3.0 * settings_.largest_radius + settings_.particle_margin + settings_.surface_margin;
+  surface.remember();
+  grid_.rebuild(surface.now(), reach);
+  candidates_.clear();
+  near_.clear();
+  for (int i = 0; i < particles.owned; ++i) {
+    const Vec2 p = in_plane(particles.position[i]);
+    if (!grid_.covers(p)) continue;
+    const auto first = static_cast<std::uint32_t>(near_.size());
+    grid_.near(surface.now(), p, near_);
+    const auto last = static_cast<std::uint32_t>(near_.size());
+    if (last > first) candidates_.push_back({i, first, last});
+  }
+}
+
+std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& particles, const MovingSurface& surface,
+                                                     double dt, double weight, std::vector<Vec2>& nodal) {
+  std::optional<std::string> failure;
+  contacts_.clear();
+  stored_normal_ = stored_tangential_ = 0.0;
+  for (const Candidate& candidate : candidates_) {
+    const int i = candidate.particle;
+    const std::span<const std::uint32_t> segments(near_.data() + candidate.first, candidate.last - candidate.first);
+    const ClosestPoint at = surface.now().closest(in_plane(particles.position[i]), segments);
+    if (at.distance < particles.radius[i]) {
+      if (at.distance < -2.0 * particles.radius[i] && !failure) failure = tunnelled(particles, i, at);
+      touch(particles, surface, i, at, dt);
+      const Vec3& total = contacts_.back().total;
+      surface.now().spread({{-weight * total[0], -weight * total[1]}}, at, nodal);
+    } else {
+      std::fill_n(particles.spring[i], 3, 0.0);
+    }
+  }
+  return failure;
+}
+
+void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface& surface, int i,
+                            const ClosestPoint& at, double dt) {
+  const ContactLaw& law = settings_.law;
+  const double radius = particles.radius[i];
+  const double overlap = radius - at.distance;
+  const Vec3 normal = in_space(at.normal);
+  const Vec3 relative = vector_of(particles.velocity[i]) - in_space(surface.now().interpolate(surface.velocity(), at));
+  const double separation = dot(relative, normal);
+  const NormalForce push = normal_force(law, overlap, -separation, particles.mass[i]);
+
+  Vec3 drag;
+  Vec3 torque;
+  if (law.friction > 0.0 && law.tangential_stiffness > 0.0) {
+    // From the centre to the touched point: minus the lever along the normal.
+    const Vec3 lever = normal * -(settings_.lever_is_radius ? radius : at.distance);
+    const Vec3 slip = relative - separation * normal + cross(vector_of(particles.spin[i]), lever);
+    Vec3 spring = turned_into_tangent_plane(vector_of(particles.spring[i]), normal) + slip * dt;
+    drag = tangential_force(law, push.total(), spring);
+    torque = cross(lever, drag);
+    std::copy(spring.c.begin(), spring.c.end(), particles.spring[i]);
+    stored_tangential_ += 0.5 * law.tangential_stiffness * dot(spring, spring);
+  }
+  stored_normal_ += 0.5 * law.normal_stiffness * overlap * overlap;
+  largest_overlap_ = std::max(largest_overlap_, overlap / (2.0 * radius));
+  const Vec3 total = push.total() * normal + drag;
+  add_to(particles.force[i], total);
+  add_to(particles.torque[i], torque);
+  contacts_.push_back({i, at, push.dashpot * normal, drag, total, torque});
+}
+
+SurfaceSide SurfaceContacts::surface_side(const MovingSurface& surface) const {
+  SurfaceSide side;
+  for (const Contact& contact : contacts_) {
+    const Vec3 velocity = in_space(surface.now().interpolate(surface.velocity(), contact.at));
+    side.power += dot(contact.total, velocity);
+    side.dashpot += dot(contact.dashpot, velocity);
+    side.tangential += dot(contact.tangential, velocity);
+  }
+  return side;
+}
+
+void SurfaceContacts::begin_interval(const MovingSurface& surface, double dt) {
+  ledger_.add(dt / 2.0, particle_side_, surface_side(surface));
+}
+
+void SurfaceContacts::end_interval(const ParticleArrays& particles, const MovingSurface& surface, double dt) {
+  ParticleSide side;
+  for (const Contact& contact : contacts_) {
+    const Vec3 velocity = vector_of(particles.velocity[contact.particle]);
+    const double turning = dot(contact.torque, vector_of(particles.spin[contact.particle]));
+    side.force += contact.total;
+    side.power += dot(contact.total, velocity) + turning;
+    side.dashpot += dot(contact.dashpot, velocity);
+    side.tangential += dot(contact.tangential, velocity) + turning;
+  }
+  particle_side_ = side;
+  ledger_.add(dt / 2.0, particle_side_, surface_side(surface));
+}
+
+}  // namespace grainstep::dem

@@ -1,0 +1,85 @@
+/// @file Contact of particles with the moving surface: who is near, forces, reactions, ledger. No LAMMPS.
+///
+/// Order of calls: rebuild() whenever particles were reordered or either side has moved by its share of the margin;
+/// then per step begin_interval(), evaluate(), and end_interval() once velocities stand at t(n).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem-service/contact_law.hpp"
+#include "dem-service/interface_ledger.hpp"
+#include "dem-service/moving_surface.hpp"
+#include "dem-service/particle_arrays.hpp"
+#include "surface/segment_grid.hpp"
+
+namespace grainstep::dem {
+
+struct SurfaceContactSettings {
+  ContactLaw law;
+  bool lever_is_radius = false;
+  double largest_radius = 0.0;   ///< m
+  double particle_margin = 0.0;  ///< m a particle may move between two rebuilds
+  double surface_margin = 0.0;   ///< m a node may move between two rebuilds
+};
+
+class SurfaceContacts {
+ public:
+  explicit SurfaceContacts(const SurfaceContactSettings& settings);
+
+  void rebuild(const ParticleArrays& particles, MovingSurface& surface);
+
+  [[nodiscard]] bool surface_left_margin(const MovingSurface& surface) const {
+    return surface.wandered() > settings_.surface_margin;
+  }
+
+  /// First half of the interval that begins at the last evaluation, with the velocity that the surface has in it.
+  void begin_interval(const MovingSurface& surface, double dt);
+
+  /// Adds forces and torques to the particles and `weight` times the reactions to `nodal` (N s with weight in s).
+  /// `dt` is the time (s) in which tangential springs have grown since the last evaluation; 0 at the start.
+  /// Returns what went wrong, if anything: a particle that passed through the surface.
+  [[nodiscard]] std::optional<std::string> evaluate(const ParticleArrays& particles, const MovingSurface& surface,
+                                                    double dt, double weight, std::vector<surface::Vec2>& nodal);
+
+  /// Second half of the interval that ends at this evaluation; velocities at t(n).
+  void end_interval(const ParticleArrays& particles, const MovingSurface& surface, double dt);
+
+  [[nodiscard]] const InterfaceLedger& ledger() const { return ledger_; }
+  [[nodiscard]] std::size_t count() const { return contacts_.size(); }
+  [[nodiscard]] double stored_normal() const { return stored_normal_; }          ///< J, at the last evaluation
+  [[nodiscard]] double stored_tangential() const { return stored_tangential_; }  ///< J
+  [[nodiscard]] const ParticleSide& last() const { return particle_side_; }
+  /// Largest overlap over the diameter since the last call.
+  [[nodiscard]] double take_largest_overlap() { return std::exchange(largest_overlap_, 0.0); }
+
+ private:
+  struct Candidate {
+    int particle;
+    std::uint32_t first, last;  ///< range in near_
+  };
+  struct Contact {
+    int particle;
+    surface::ClosestPoint at;
+    surface::Vec3 dashpot, tangential, total, torque;  ///< on the particle
+  };
+
+  void touch(const ParticleArrays& particles, const MovingSurface& surface, int i, const surface::ClosestPoint& at,
+             double dt);
+  [[nodiscard]] SurfaceSide surface_side(const MovingSurface& surface) const;
+
+  SurfaceContactSettings settings_;
+  surface::SegmentGrid grid_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::uint32_t> near_;
+  std::vector<Contact> contacts_;
+  InterfaceLedger ledger_;
+  ParticleSide particle_side_;
+  double stored_normal_ = 0.0;
+  double stored_tangential_ = 0.0;
+  double largest_overlap_ = 0.0;
+};
+
+}  // namespace grainstep::dem
