@@ -1,5 +1,6 @@
 #include "dem-service/damping.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -12,10 +13,10 @@ namespace {
 /// Departure over approach speed, for a first overlap of `phase` times one step's way.
 /// In units of the approach speed v and the step: overlap u = delta/(v dt), rate w = delta_dot/v.
 double departure(double spring, double dashpot, bool tension_cutoff, double phase) {
-  constexpr int never = 100000;  // steps: a contact that lasts longer does not end
+  constexpr double creeping = 1e-7;  // of the approach speed: an overdamped contact that ends only in the limit
   double overlap = phase;
   double rate = 1.0;
-  for (int step = 0; step < never; ++step) {
+  while (!(rate < 0.0 && rate > -creeping)) {
     double force = spring * overlap + dashpot * rate;
     if (tension_cutoff && force < 0.0) force = 0.0;
     rate -= force;
@@ -52,8 +53,13 @@ double discrete_restitution(const Collision& collision, double gamma, double dt)
 
 double calibrated_damping(const Collision& collision, double dt) {
   if (collision.restitution >= 1.0) return 0.0;
+  const double most = 1.0 / dt;  // the dashpot takes the whole approach rate in one step: beyond it, it would overshoot
   double low = 0.0;
-  double high = 1.0 / dt;  // the dashpot takes the whole approach rate in one step: beyond it, it would overshoot
+  double high = std::min(most, continuum_damping(collision));
+  while (high < most && discrete_restitution(collision, high, dt) > collision.restitution) {
+    low = high;
+    high = std::min(most, 1.25 * high);
+  }
   if (discrete_restitution(collision, high, dt) > collision.restitution) {
     std::ostringstream text;
     text << "restitution " << collision.restitution << " cannot be reached with a step of " << dt << " s (contact time "

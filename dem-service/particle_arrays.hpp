@@ -17,7 +17,7 @@ struct ParticleArrays {
   const double* radius = nullptr;           ///< m
   const double* mass = nullptr;             ///< kg
   const std::int32_t* identity = nullptr;
-  double* const* spring = nullptr;  ///< m, tangential spring of the contact with the surface; zero without contact
+  surface::Vec3* spring = nullptr;  ///< m, tangential spring of the contact with the surface; zero without contact
 };
 
 inline surface::Vec2 in_plane(const double* a) { return {{a[0], a[1]}}; }

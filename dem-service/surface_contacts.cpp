@@ -58,7 +58,7 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
       const Vec3& total = contacts_.back().total;
       surface.now().spread({{-weight * total[0], -weight * total[1]}}, at, nodal);
     } else {
-      std::fill_n(particles.spring[i], 3, 0.0);
+      particles.spring[i] = {};
     }
   }
   return failure;
@@ -80,10 +80,10 @@ void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface
     // From the centre to the touched point: minus the lever along the normal.
     const Vec3 lever = normal * -(settings_.lever_is_radius ? radius : at.distance);
     const Vec3 slip = relative - separation * normal + cross(vector_of(particles.spin[i]), lever);
-    Vec3 spring = turned_into_tangent_plane(vector_of(particles.spring[i]), normal) + slip * dt;
+    Vec3 spring = turned_into_tangent_plane(particles.spring[i], normal) + slip * dt;
     drag = tangential_force(law, push.total(), spring);
     torque = cross(lever, drag);
-    std::copy(spring.c.begin(), spring.c.end(), particles.spring[i]);
+    particles.spring[i] = spring;
     stored_tangential_ += 0.5 * law.tangential_stiffness * dot(spring, spring);
   }
   stored_normal_ += 0.5 * law.normal_stiffness * overlap * overlap;

@@ -1,0 +1,56 @@
+#include "dem-service/lammps_session.hpp"
+
+#include "dem-service/lammps_fmt.hpp"
+
+#define LAMMPS_LIB_MPI  // library.h declares lammps_open only then
+#include <lammps/error.h>
+#include <lammps/lammps.h>
+#include <lammps/library.h>
+
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include "base/error.hpp"
+
+// The program's own definitions take precedence over the shared library's, for its internal calls as well.
+namespace LAMMPS_NS {
+
+void Error::all(const std::string& /*file*/, int /*line*/, const std::string& text) {
+  throw grainstep::dem::LammpsFailure(text, true);
+}
+
+void Error::one(const std::string& /*file*/, int /*line*/, const std::string& text) {
+  throw grainstep::dem::LammpsFailure(text, false);
+}
+
+}  // namespace LAMMPS_NS
+
+namespace grainstep::dem {
+
+LammpsSession::LammpsSession(MPI_Comm communicator, const std::string& log) : communicator_(communicator) {
+  std::vector<std::string> words{"grainstep-dem", "-log", log.empty() ? "none" : log, "-screen", "none", "-nocite"};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  handle_ = lammps_open(static_cast<int>(arguments.size()), arguments.data(), communicator, nullptr);
+  if (handle_ == nullptr) throw NumericalError("LAMMPS could not be started");
+}
+
+LammpsSession::~LammpsSession() { lammps_close(handle_); }
+
+void LammpsSession::command(const std::string& text) {
+  try {
+    lammps_command(handle_, text.c_str());
+  } catch (const LammpsFailure& failure) {
+    const std::string message = "LAMMPS, at `" + text + "`: " + failure.what();
+    int ranks = 1;
+    MPI_Comm_size(communicator_, &ranks);
+    if (ranks > 1 && !failure.on_every_rank()) {
+      std::fprintf(stderr, "grainstep-dem: %s (on one rank alone: the MPI job is aborted)\n", message.c_str());
+      MPI_Abort(communicator_, static_cast<int>(ExitCode::numerical));
+    }
+    throw NumericalError(message);
+  }
+}
+
+}  // namespace grainstep::dem

@@ -1,0 +1,147 @@
+#include "dem-service/slug_engine.hpp"
+
+#include "dem-service/lammps_fmt.hpp"
+
+#include <lammps/atom.h>
+#include <lammps/lammps.h>
+#include <lammps/library.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <limits>
+
+#include "base/error.hpp"
+#include "dem-service/packing.hpp"
+#include "dem-service/surface_fix.hpp"
+
+namespace grainstep::dem {
+namespace {
+
+// Neighbour lists hold pairs up to this many diameters beyond contact. Long lists cost little, rebuilding them much:
+// at 400 m/s a particle flies half a diameter in ten steps (docs/decisions/0001-how-lammps-is-driven.md).
+constexpr double skin_in_diameters = 1.0;
+
+std::string text_of(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string text_of(const char* format, ...) {
+  char buffer[400];
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(buffer, sizeof buffer, format, values);
+  va_end(values);
+  return buffer;
+}
+
+std::vector<PlacedParticle> packed(const SlugModel& model, const wire::Surface& surface) {
+  const double radius = model.diameter / 2.0;
+  const PackingBox box{{{model.mirror ? radius : radius - model.half_width, radius}},
+                       {{model.half_width - radius, model.height - radius}}};
+  auto centres = pack_at_random(box, model.particles, model.diameter, model.seed);
+  rest_on(MovingSurface(surface).now(), model.diameter, centres);
+  std::vector<PlacedParticle> particles;
+  particles.reserve(centres.size());
+  for (const surface::Vec2& centre : centres) particles.push_back({centre, {{0.0, -model.speed}}, 0.0});
+  return particles;
+}
+
+SlugModel model_of(const wire::Setup& setup) {
+  return make_slug_model(setup.impactor().impactor(), setup.symmetry(), setup.depth(), setup.mirror());
+}
+
+}  // namespace
+
+SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup)
+    : SlugEngine(options, setup, packed(model_of(setup), setup.impactor().surface())) {}
+
+SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup,
+                       const std::vector<PlacedParticle>& particles)
+    : model_(model_of(setup)),
+      communicator_(options.communicator),
+      session_(options.communicator, options.lammps_log),
+      setup_(setup.impactor()) {
+  model_.particles = particles.size();
+  create_particles(particles);
+}
+
+void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) {
+  if (particles.size() > std::numeric_limits<int>::max()) throw InputError("impactor.slug: more than 2^31 particles");
+  const int count = static_cast<int>(particles.size());
+  const double room = 2.0 * model_.diameter;
+  surface::Vec2 low = particles.front().position;
+  surface::Vec2 high = low;
+  std::vector<int> identity(particles.size());
+  std::vector<int> type(particles.size(), 1);
+  std::vector<double> position;
+  std::vector<double> velocity;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const PlacedParticle& particle = particles[i];
+    identity[i] = static_cast<int>(i + 1);
+    position.insert(position.end(), {particle.position[0], particle.position[1], 0.0});
+    velocity.insert(velocity.end(), {particle.velocity[0], particle.velocity[1], 0.0});
+    for (std::size_t c = 0; c < 2; ++c) {
+      low[c] = std::min(low[c], particle.position[c]);
+      high[c] = std::max(high[c], particle.position[c]);
+    }
+  }
+  // The box follows the particles, but its upper faces do not come closer than they are now: a row of particles must
+  // not make it thin. Ranks share it along x1, so that all have their part of the front.
+  for (const char* line : {"units si", "atom_style sphere", "dimension 2", "newton on", "boundary sm sm p",
+                           "comm_modify vel yes", "processors * 1 1"}) {
+    session_.command(line);
+  }
+  session_.command(text_of("region slug block %.17g %.17g %.17g %.17g %.17g %.17g units box", low[0] - room,
+                           high[0] + room, low[1] - room, high[1] + room, -room / 2.0, room / 2.0));
+  session_.command("create_box 1 slug");
+  lammps_create_atoms(session_.handle(), count, identity.data(), type.data(), position.data(), velocity.data(), nullptr,
+                      0);
+  LAMMPS_NS::Atom& atom = *session_.lammps().atom;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    atom.radius[i] = model_.diameter / 2.0;
+    atom.rmass[i] = model_.mass;
+    atom.omega[i][2] = particles[static_cast<std::size_t>(atom.tag[i] - 1)].spin;
+  }
+}
+
+void SlugEngine::set_laws(const ContactLaw& pair, double dt, double skin) {
+  // Without friction there is no history to keep.
+  const bool slides_freely = pair.friction <= 0.0 || pair.tangential_stiffness <= 0.0;
+  session_.command(text_of("pair_style gran/hooke%s %.17g %.17g %.17g 0 %.17g 0", slides_freely ? "" : "/history",
+                           pair.normal_stiffness, pair.tangential_stiffness, pair.damping_rate,
+                           slides_freely ? 0.0 : pair.friction));
+  session_.command("pair_coeff * *");
+  session_.command(text_of("neighbor %.17g bin", skin));
+  session_.command(text_of("neigh_modify delay 0 every 1 check yes binsize %.17g", model_.diameter + skin));
+  session_.command(text_of("timestep %.17g", dt));
+  session_.command("fix motion all nve/sphere disc");
+  session_.command("timer loop");
+  session_.command("thermo_modify lost ignore");  // we count them ourselves and say what it means
+}
+
+void SlugEngine::run(const wire::Start& start, participant::ImpactorLink* link) {
+  const std::uint64_t steps = start.windows() * start.impactor_steps();
+  if (start.first_window() != 0) throw InputError("grainstep-dem cannot continue a run: Start.first_window must be 0");
+  if (!(start.window() > 0.0) || start.impactor_steps() == 0) {
+    throw InputError("Start: window and impactor_steps must be above 0");
+  }
+  if (steps > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
+    throw InputError("time.end: " + std::to_string(steps) + " steps, but LAMMPS counts up to 2^31: end earlier");
+  }
+  const double dt = start.window() / start.impactor_steps();
+  const double skin = skin_in_diameters * model_.diameter;
+  const ContactLaw pair = calibrated_pair_law(model_, dt);
+  set_laws(pair, dt, skin);
+
+  const StepSettings settings{dt, skin / 2.0, std::max(1U, setup_.guards().energy_sampling())};
+  MovingSurface surface(setup_.surface());
+  RankExchange exchange(communicator_, link, surface.node_count());
+  StepDriver driver(model_, start, settings, std::move(surface), exchange);
+  SurfaceFix::register_style(session_.lammps());
+  session_.command("fix surface all grainstep/surface");
+  const bool sticks = pair.friction > 0.0;
+  SurfaceFix::find(session_.lammps(), "surface")
+      .connect(driver, exchange, {pair.normal_stiffness, sticks ? pair.tangential_stiffness : 0.0});
+  session_.command(text_of("run %llu post no", static_cast<unsigned long long>(steps)));
+  exchange.finish();
+}
+
+}  // namespace grainstep::dem

@@ -1,0 +1,41 @@
+/// @file A slug inside LAMMPS: particles created, laws set, all windows run. Everything here is collective.
+#pragma once
+
+#include "dem-service/impactor.hpp"
+#include "dem-service/lammps_session.hpp"
+#include "dem-service/slug_model.hpp"
+
+namespace grainstep::dem {
+
+/// One particle at the start.
+struct PlacedParticle {
+  surface::Vec2 position;  ///< m
+  surface::Vec2 velocity;  ///< m/s
+  double spin = 0.0;       ///< 1/s
+};
+
+class SlugEngine {
+ public:
+  /// Packs the slug and creates its particles, just touching the surface. Throws InputError.
+  SlugEngine(const EngineOptions& options, const wire::Setup& setup);
+
+  /// These particles instead of a packed slug; everything else as the setup says.
+  SlugEngine(const EngineOptions& options, const wire::Setup& setup, const std::vector<PlacedParticle>& particles);
+
+  [[nodiscard]] const SlugModel& model() const { return model_; }
+
+  /// Runs all windows. `link`: rank 0's, nullptr elsewhere. Throws InputError, NumericalError or what the link throws;
+  /// on the other ranks only what LAMMPS itself finds.
+  void run(const wire::Start& start, participant::ImpactorLink* link);
+
+ private:
+  void create_particles(const std::vector<PlacedParticle>& particles);
+  void set_laws(const ContactLaw& pair, double dt, double skin);
+
+  SlugModel model_;
+  MPI_Comm communicator_;
+  LammpsSession session_;
+  wire::ImpactorSetup setup_;
+};
+
+}  // namespace grainstep::dem

@@ -1,0 +1,145 @@
+#include "dem-service/step_driver.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "participant/schedule.hpp"
+
+namespace grainstep::dem {
+namespace {
+
+SurfaceContactSettings contact_settings(const SlugModel& model, const StepSettings& settings) {
+  return {.law = calibrated_surface_law(model, settings.dt),
+          .lever_is_radius = model.lever_is_radius,
+          .largest_radius = model.diameter / 2.0,
+          .particle_margin = settings.margin,
+          .surface_margin = settings.margin / 2.0};
+}
+
+}  // namespace
+
+StepDriver::StepDriver(const SlugModel& model, const wire::Start& start, const StepSettings& settings,
+                       MovingSurface surface, RankExchange& exchange)
+    : model_(model),
+      start_(start),
+      settings_(settings),
+      surface_(std::move(surface)),
+      exchange_(exchange),
+      contacts_(contact_settings(model, settings)),
+      nodal_(surface_.node_count()) {
+  if (model.mirror) mirror_.emplace(calibrated_pair_law(model, settings.dt), settings.margin);
+}
+
+void StepDriver::check_speed(const ParticleArrays& particles) {
+  for (int i = 0; i < particles.owned; ++i) {
+    const double* v = particles.velocity[i];
+    const double way2 = (v[0] * v[0] + v[1] * v[1]) * settings_.dt * settings_.dt;
+    if (way2 <= particles.radius[i] * particles.radius[i]) continue;  // false for what is not a number
+    std::ostringstream text;
+    text << "particle " << particles.identity[i] << " moves more than its radius in one step (velocity " << v[0] << ", "
+         << v[1] << " m/s, step " << settings_.dt << " s): the computation is unstable; lower steps.impactor";
+    exchange_.fail(text.str());
+    return;
+  }
+}
+
+void StepDriver::rebuild(const ParticleArrays& particles) {
+  if (ended_) return;
+  check_speed(particles);
+  contacts_.rebuild(particles, surface_);
+  if (mirror_) mirror_->rebuild(particles);
+}
+
+void StepDriver::next_interval(std::uint64_t step, const ParticleArrays& particles) {
+  const std::uint64_t steps = start_.impactor_steps();
+  const std::uint64_t into_window = (step - 1) % steps + 1;
+  if (into_window == 1) {
+    surface_.arrive();
+    ended_ = !exchange_.receive((step - 1) / steps + 1, surface_);
+    if (ended_) return;
+  }
+  contacts_.begin_interval(surface_, settings_.dt);
+  if (mirror_) mirror_->begin_interval(settings_.dt);
+  surface_.move_to(static_cast<double>(into_window) / static_cast<double>(steps));
+  if (contacts_.surface_left_margin(surface_)) contacts_.rebuild(particles, surface_);
+}
+
+void StepDriver::before_pair_forces(std::uint64_t step, const ParticleArrays& particles) {
+  if (step > 0 && !ended_) next_interval(step, particles);
+  if (ended_) return;
+  const double weight = step == 0 ? settings_.dt / 2.0 : settings_.dt;
+  const double grown = step == 0 ? 0.0 : settings_.dt;
+  if (const auto failure = contacts_.evaluate(particles, surface_, grown, weight, nodal_)) exchange_.fail(*failure);
+  if (mirror_) mirror_->evaluate(particles);
+  if (step % start_.impactor_steps() == 0) exchange_.hand_over(step / start_.impactor_steps(), nodal_);
+}
+
+participant::Due StepDriver::due_after(std::uint64_t step) const {
+  if (step % start_.impactor_steps() != 0) return {};
+  return participant::due_at(start_, step / start_.impactor_steps());
+}
+
+bool StepDriver::samples_at(std::uint64_t step) const {
+  return !ended_ && (step % settings_.energy_sampling == 0 || due_after(step).report);
+}
+
+void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles,
+                             const std::optional<PairSample>& sample) {
+  if (ended_) return;
+  const double interval = step == 0 ? 0.0 : settings_.dt;  // no interval ends at the start
+  contacts_.end_interval(particles, surface_, interval);
+  if (mirror_) mirror_->end_interval(particles, interval);
+  if (sample) pairs_.sample(step, *sample);
+  const participant::Due due = due_after(step);
+  const std::uint64_t window = step / start_.impactor_steps();
+  if (due.report) report(window, step, particles);
+  if (due.snapshot) {
+    wire::Snapshot snapshot;
+    snapshot.set_window(window);
+    gather_snapshot(particles, exchange_.communicator(), snapshot);
+    if (exchange_.is_root()) exchange_.send(static_cast<const wire::Snapshot&>(snapshot));
+  }
+}
+
+void StepDriver::report(std::uint64_t window, std::uint64_t step, const ParticleArrays& particles) {
+  ReportSums sums;
+  ReportMaxima maxima;
+  add_particles(particles, sums, maxima);
+  const InterfaceLedger& surface = contacts_.ledger();
+  sums.pair_normal = pairs_.last().stored_normal;
+  sums.pair_tangential = pairs_.last().stored_tangential;
+  sums.surface_normal = contacts_.stored_normal();
+  sums.surface_tangential = contacts_.stored_tangential();
+  sums.surface_damping = surface.damping;
+  sums.surface_work_tangential = surface.tangential;
+  sums.work_on_particles = surface.work_on_particles;
+  sums.work_on_surface = surface.work_on_surface;
+  sums.surface_contacts = static_cast<double>(contacts_.count());
+  std::copy_n(surface.impulse.c.begin(), 2, sums.surface_impulse);
+  maxima.overlap = std::max(pairs_.take_largest_overlap(), contacts_.take_largest_overlap());
+  if (mirror_) {
+    sums.mirror_stored = mirror_->stored();
+    sums.mirror_damping = mirror_->ledger().damping;
+    std::copy_n(mirror_->ledger().impulse.c.begin(), 2, sums.mirror_impulse);
+    maxima.overlap = std::max(maxima.overlap, mirror_->take_largest_overlap());
+  }
+  pairs_.integrate(exchange_.communicator(), settings_.dt);
+  const ReportSums all = summed(sums, exchange_.communicator());
+  const ReportMaxima most = largest(maxima, exchange_.communicator());
+  if (!exchange_.is_root()) return;
+
+  wire::Report message;
+  message.set_window(window);
+  fill_report(all, most, pairs_, message);
+  message.mutable_timing()->set_steps(step);
+  if (!std::isfinite(all.kinetic) || all.particles != static_cast<double>(model_.particles)) {
+    std::ostringstream text;
+    text << "after " << step << " steps " << all.particles << " of " << model_.particles
+         << " particles are left, with a kinetic energy of " << all.kinetic
+         << " J: the computation is unstable; lower steps.impactor";
+    exchange_.fail(text.str());
+  }
+  exchange_.send(message);
+}
+
+}  // namespace grainstep::dem

@@ -1,0 +1,58 @@
+/// @file What happens in every step besides LAMMPS's own: surface and mirror contact, exchange, ledger. No LAMMPS.
+///
+/// Calls per step, in this order: rebuild() if particles were reordered or left their margin, before_pair_forces(),
+/// end_of_step(). Step 0 is the state at the start. Window n ends with step n times impactor_steps.
+#pragma once
+
+#include <optional>
+
+#include "dem-service/rank_exchange.hpp"
+#include "dem-service/slug_model.hpp"
+#include "dem-service/slug_report.hpp"
+
+namespace grainstep::dem {
+
+struct StepSettings {
+  double dt = 0.0;      ///< s
+  double margin = 0.0;  ///< m a particle may move between two rebuilds
+  std::uint32_t energy_sampling = 1;
+};
+
+class StepDriver {
+ public:
+  StepDriver(const SlugModel& model, const wire::Start& start, const StepSettings& settings, MovingSurface surface,
+             RankExchange& exchange);
+
+  void rebuild(const ParticleArrays& particles);
+
+  /// Contact with surface and mirror at this step; at a window's end the impulse is on its way before this returns.
+  void before_pair_forces(std::uint64_t step, const ParticleArrays& particles);
+
+  /// Whether this step's contacts between particles are to be sampled.
+  [[nodiscard]] bool samples_at(std::uint64_t step) const;
+
+  /// Velocities at t(n). `sample`: where samples_at(step).
+  void end_of_step(std::uint64_t step, const ParticleArrays& particles, const std::optional<PairSample>& sample);
+
+  /// No further step is wanted.
+  [[nodiscard]] bool ended() const { return ended_; }
+
+ private:
+  void next_interval(std::uint64_t step, const ParticleArrays& particles);
+  void check_speed(const ParticleArrays& particles);
+  [[nodiscard]] participant::Due due_after(std::uint64_t step) const;
+  void report(std::uint64_t window, std::uint64_t step, const ParticleArrays& particles);
+
+  SlugModel model_;
+  wire::Start start_;
+  StepSettings settings_;
+  MovingSurface surface_;
+  RankExchange& exchange_;
+  SurfaceContacts contacts_;
+  std::optional<MirrorContacts> mirror_;
+  PairDissipation pairs_;
+  std::vector<surface::Vec2> nodal_;
+  bool ended_ = false;
+};
+
+}  // namespace grainstep::dem

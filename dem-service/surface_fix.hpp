@@ -1,0 +1,69 @@
+/// @file The engine's one own LAMMPS fix, `grainstep/surface`: hands LAMMPS's callbacks to a StepDriver and keeps the
+/// tangential springs with their particles through sorting and migration. Why one fix, and why before the pair forces:
+/// docs/decisions/0001-how-lammps-is-driven.md and 0002-contact-history.md.
+#pragma once
+
+#include "dem-service/lammps_fmt.hpp"
+
+#include <lammps/fix.h>
+
+#include <optional>
+#include <vector>
+
+#include "dem-service/pair_sampler.hpp"
+#include "dem-service/step_driver.hpp"
+
+namespace grainstep::dem {
+
+class SurfaceFix : public LAMMPS_NS::Fix {
+ public:
+  static constexpr const char* style_name = "grainstep/surface";
+
+  /// Makes the style known to this LAMMPS instance.
+  static void register_style(LAMMPS_NS::LAMMPS& lammps);
+  /// The fix that a command `fix ID all grainstep/surface` has made.
+  static SurfaceFix& find(LAMMPS_NS::LAMMPS& lammps, const char* id);
+
+  SurfaceFix(LAMMPS_NS::LAMMPS* lammps, int argument_count, char** arguments);
+  ~SurfaceFix() override;
+  SurfaceFix(const SurfaceFix&) = delete;
+  SurfaceFix& operator=(const SurfaceFix&) = delete;
+  SurfaceFix(SurfaceFix&&) = delete;
+  SurfaceFix& operator=(SurfaceFix&&) = delete;
+
+  /// Both outlive the run.
+  void connect(StepDriver& driver, RankExchange& exchange, const PairSampler::Stiffness& pair_stiffness);
+
+  int setmask() override;
+
+  void setup_post_neighbor() override { post_neighbor(); }
+  void setup_pre_force(int flags) override { pre_force(flags); }
+  void setup(int flags) override;
+  void post_neighbor() override;
+  void pre_force(int flags) override;
+  void post_force(int flags) override;
+  void end_of_step() override;
+
+  void grow_arrays(int capacity) override;
+  void copy_arrays(int from, int to, int delete_flag) override;
+  void set_arrays(int i) override;
+  int pack_exchange(int i, double* buffer) override;
+  int unpack_exchange(int i, double* buffer) override;
+  int pack_reverse_comm(int count, int first, double* buffer) override;
+  void unpack_reverse_comm(int count, int* list, double* buffer) override;
+  double memory_usage() override;
+
+ private:
+  [[nodiscard]] ParticleArrays particles();
+  [[nodiscard]] std::uint64_t step() const;
+
+  template <typename Work>
+  void guarded(Work&& work);
+
+  StepDriver* driver_ = nullptr;
+  RankExchange* exchange_ = nullptr;
+  std::optional<PairSampler> sampler_;
+  std::vector<surface::Vec3> springs_;
+};
+
+}  // namespace grainstep::dem

@@ -1,0 +1,162 @@
+/// @file Runs the real engine against a scripted surface, without transport or orchestrator.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "dem-service/slug_engine.hpp"
+#include "participant/schedule.hpp"
+
+namespace grainstep::dem::rig {
+
+using surface::Vec2;
+
+/// The reference slug's particles, scaled to D = 1 mm so that a few of them make a slug; no mirror.
+inline wire::Setup reference_setup() {
+  wire::Setup setup;
+  setup.set_protocol(wire::PROTOCOL_VERSION);
+  setup.set_symmetry(scene::SYMMETRY_PLANE_STRAIN);
+  setup.set_depth(1e-3);
+  scene::Impactor& impactor = *setup.mutable_impactor()->mutable_impactor();
+  impactor.set_type(scene::Impactor::TYPE_SLUG);
+  scene::Slug& slug = *impactor.mutable_slug();
+  slug.set_half_width(0.02);
+  slug.set_height(0.04);
+  slug.set_relative_density(0.2);
+  slug.set_speed(400.0);
+  slug.set_seed(1);
+  scene::Particle& particle = *slug.mutable_particle();
+  particle.set_diameter(1e-3);
+  particle.set_density(2700.0);
+  particle.set_normal_stiffness(7.3e6);
+  particle.set_tangential_ratio(2.0 / 7.0);
+  particle.set_restitution(0.7);
+  particle.set_friction(0.7);
+  slug.mutable_surface_contact()->set_lever_arm(scene::SurfaceContact::LEVER_ARM_CONTACT_POINT);
+  setup.mutable_impactor()->mutable_guards()->set_energy_sampling(1);
+  return setup;
+}
+
+inline scene::Slug& slug_of(wire::Setup& setup) {
+  return *setup.mutable_impactor()->mutable_impactor()->mutable_slug();
+}
+
+/// An open piece through these nodes, at rest.
+inline void set_surface(wire::Setup& setup, const std::vector<Vec2>& nodes) {
+  wire::Surface& surface = *setup.mutable_impactor()->mutable_surface();
+  surface.Clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const double x : nodes[i].c) surface.add_position(x);
+    for (int c = 0; c < 2; ++c) surface.add_velocity(0.0);
+    if (i == 0) continue;
+    surface.add_segment(static_cast<std::uint32_t>(i - 1));
+    surface.add_segment(static_cast<std::uint32_t>(i));
+  }
+}
+
+/// A flat surface at x2 = 0 from x1 = -length to length.
+inline void set_flat_surface(wire::Setup& setup, double length, int segments) {
+  std::vector<Vec2> nodes;
+  for (int i = 0; i <= segments; ++i) nodes.push_back({{length * (2.0 * i / segments - 1.0), 0.0}});
+  set_surface(setup, nodes);
+}
+
+/// Where node `node` is at the end of window n, given where it was at the start.
+using Motion = std::function<Vec2(std::uint64_t window, const Vec2& start)>;
+
+inline Motion at_rest() {
+  return [](std::uint64_t, const Vec2& start) { return start; };
+}
+
+/// Plays the structure and keeps everything that the impactor says.
+class ScriptedLink final : public participant::ImpactorLink {
+ public:
+  ScriptedLink(const wire::Setup& setup, const wire::Start& start, Motion motion)
+      : initial_(setup.impactor().surface()), start_(start), motion_(std::move(motion)) {}
+
+  const wire::Kinematics* surface(std::uint64_t window) override {
+    if (window > stop_before) return nullptr;
+    kinematics_.Clear();
+    kinematics_.set_window(window);
+    for (int i = 0; i < initial_.position_size(); i += 2) {
+      const Vec2 start{{initial_.position(i), initial_.position(i + 1)}};
+      const Vec2 now = motion_(window, start);
+      const Vec2 mean = (now - motion_(window - 1, start)) * (1.0 / start_.window());
+      for (int c = 0; c < 2; ++c) {
+        kinematics_.add_position(now[static_cast<std::size_t>(c)]);
+        kinematics_.add_velocity(mean[static_cast<std::size_t>(c)]);
+      }
+    }
+    return &kinematics_;
+  }
+  participant::Due due(std::uint64_t window) const override { return participant::due_at(start_, window); }
+  void send(const wire::Forces& sent) override { forces.push_back(sent); }
+  void send(wire::Report& sent) override { reports.push_back(sent); }
+  void send(const wire::Snapshot& sent) override { snapshots.push_back(sent); }
+
+  std::uint64_t stop_before = ~std::uint64_t{0};  ///< the run is ended instead of a later window's surface
+  std::vector<wire::Forces> forces;
+  std::vector<wire::Report> reports;
+  std::vector<wire::Snapshot> snapshots;
+
+ private:
+  wire::Surface initial_;
+  wire::Start start_;
+  Motion motion_;
+  wire::Kinematics kinematics_;
+};
+
+inline EngineOptions alone() {
+  int initialised = 0;
+  MPI_Initialized(&initialised);
+  if (initialised == 0) MPI_Init(nullptr, nullptr);
+  return {.communicator = MPI_COMM_SELF, .lammps_log = {}};
+}
+
+/// Windows of `steps` steps of dt each, `windows` of them; one report and snapshot at the start and at the end.
+inline wire::Start start_of(double dt, std::uint64_t windows, std::uint32_t steps = 1) {
+  wire::Start start;
+  start.set_window(dt * steps);
+  start.set_windows(windows);
+  start.set_impactor_steps(steps);
+  start.set_structure_steps(1);
+  start.set_report_every(windows);
+  start.set_snapshot_every(windows);
+  return start;
+}
+
+inline ScriptedLink run(const wire::Setup& setup, const wire::Start& start,
+                        const std::vector<PlacedParticle>& particles, const Motion& motion = at_rest()) {
+  ScriptedLink link(setup, start, motion);
+  SlugEngine engine(alone(), setup, particles);
+  engine.run(start, &link);
+  return link;
+}
+
+inline ScriptedLink run_slug(const wire::Setup& setup, const wire::Start& start, const Motion& motion = at_rest()) {
+  ScriptedLink link(setup, start, motion);
+  SlugEngine engine(alone(), setup);
+  engine.run(start, &link);
+  return link;
+}
+
+inline SlugModel model_of(const wire::Setup& setup) {
+  return make_slug_model(setup.impactor().impactor(), setup.symmetry(), setup.depth(), setup.mirror());
+}
+
+inline const wire::Field& field(const wire::Snapshot& snapshot, const std::string& name) {
+  for (const wire::Field& candidate : snapshot.point_field()) {
+    if (candidate.name() == name) return candidate;
+  }
+  throw std::runtime_error("no field " + name);
+}
+
+inline double observable(const wire::Report& report, const std::string& name) {
+  for (const wire::Observable& candidate : report.observable()) {
+    if (candidate.name() == name) return candidate.value();
+  }
+  throw std::runtime_error("no observable " + name);
+}
+
+}  // namespace grainstep::dem::rig
