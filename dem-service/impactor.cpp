@@ -1,6 +1,5 @@
 #include "dem-service/impactor.hpp"
 
-#include <lammps/library.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -8,6 +7,7 @@
 
 #include "base/assert.hpp"
 #include "base/error.hpp"
+#include "dem-service/mpi_start.hpp"
 #include "dem-service/slug_engine.hpp"
 
 namespace grainstep::dem {
@@ -17,9 +17,7 @@ namespace {
 enum class Order : int { prepare, run, leave };
 
 EngineOptions completed(EngineOptions options) {
-  int initialised = 0;
-  MPI_Initialized(&initialised);
-  if (initialised == 0) MPI_Init(nullptr, nullptr);  // and LAMMPS finds it so; MPI ends with the process
+  start_mpi();
   if (options.communicator == MPI_COMM_NULL) options.communicator = MPI_COMM_SELF;
   return options;
 }

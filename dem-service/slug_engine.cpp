@@ -131,7 +131,7 @@ void SlugEngine::run(const wire::Start& start, participant::ImpactorLink* link) 
   const ContactLaw pair = calibrated_pair_law(model_, dt);
   set_laws(pair, dt, skin);
 
-  const StepSettings settings{dt, skin / 2.0, std::max(1U, setup_.guards().energy_sampling())};
+  const StepSettings settings{dt, skin / 2.0, sampling_interval(model_, setup_.guards())};
   MovingSurface surface(setup_.surface());
   RankExchange exchange(communicator_, link, surface.node_count());
   StepDriver driver(model_, start, settings, std::move(surface), exchange);

@@ -91,4 +91,10 @@ double largest_stable_step(const Collision& pair, double tangential_stiffness) {
   return 4.0 / (half_rate + std::sqrt(half_rate * half_rate + 4.0 * stiffest));
 }
 
+std::uint32_t sampling_interval(const SlugModel& model, const scene::Guards& guards) {
+  constexpr std::uint64_t particles_per_step = 700;
+  const std::uint64_t wanted = std::max<std::uint64_t>(1, guards.energy_sampling());
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(model.particles / particles_per_step, 1, wanted));
+}
+
 }  // namespace grainstep::dem

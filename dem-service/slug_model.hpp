@@ -48,4 +48,8 @@ struct SlugModel {
 /// 60 degrees add up to three times that in any direction. docs/theory/particles.md has the derivation.
 [[nodiscard]] double largest_stable_step(const Collision& pair, double tangential_stiffness);
 
+/// Steps between two samples of the dissipation between particles: guards.energy_sampling, but less for small slugs.
+/// Few contacts make a noisy mean, and cost nothing to sample.
+[[nodiscard]] std::uint32_t sampling_interval(const SlugModel& model, const scene::Guards& guards);
+
 }  // namespace grainstep::dem

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "dem-service/mpi_start.hpp"
 #include "dem-service/slug_engine.hpp"
 #include "participant/schedule.hpp"
 
@@ -108,9 +109,7 @@ class ScriptedLink final : public participant::ImpactorLink {
 };
 
 inline EngineOptions alone() {
-  int initialised = 0;
-  MPI_Initialized(&initialised);
-  if (initialised == 0) MPI_Init(nullptr, nullptr);
+  start_mpi();
   return {.communicator = MPI_COMM_SELF, .lammps_log = {}};
 }
 

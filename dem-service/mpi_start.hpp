@@ -1,0 +1,21 @@
+/// @file MPI for a program that may be started by mpirun or by itself.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdlib>
+
+namespace grainstep::dem {
+
+/// Initialises MPI unless that was done. A process started alone needs no daemon beside it (Open MPI would look for
+/// `orted`, which slim images lack), and a rank that waits for the other side gives its core to whoever can use it.
+inline void start_mpi() {
+  int initialised = 0;
+  MPI_Initialized(&initialised);
+  if (initialised != 0) return;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  MPI_Init(nullptr, nullptr);
+}
+
+}  // namespace grainstep::dem
