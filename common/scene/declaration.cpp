@@ -48,6 +48,7 @@ std::string word_for(const EnumDescriptor& type, int number) {
 
 std::vector<std::string> key_names(const Descriptor& message) {
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(message.field_count()));
   for (int i = 0; i < message.field_count(); ++i) names.push_back(message.field(i)->name());
   return names;
 }
@@ -56,6 +57,7 @@ std::vector<const FieldDescriptor*> alternatives(const Descriptor& message) {
   GS_ASSERT(message.real_oneof_decl_count() == 1, message.full_name() + " has a scalar form but not one oneof");
   std::vector<const FieldDescriptor*> members;
   const auto* oneof = message.oneof_decl(0);
+  members.reserve(static_cast<std::size_t>(oneof->field_count()));
   for (int i = 0; i < oneof->field_count(); ++i) members.push_back(oneof->field(i));
   return members;
 }

@@ -79,7 +79,7 @@ class Includer {
     if (found == own.members.end()) return {};
     const Tree include = std::move(found->second);
     own.members.erase(found);
-    const std::vector<Tree> names = include.kind == Tree::Kind::list ? include.items : std::vector{include};
+    std::vector<Tree> names = include.kind == Tree::Kind::list ? include.items : std::vector{include};
     for (const auto& name : names) {
       if (name.kind == Tree::Kind::scalar && !name.scalar.empty()) continue;
       throw InputError(

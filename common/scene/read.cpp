@@ -94,6 +94,7 @@ class Reader {
 
   static std::string member_names(const google::protobuf::OneofDescriptor& oneof) {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(oneof.field_count()));
     for (int i = 0; i < oneof.field_count(); ++i) names.push_back(oneof.field(i)->name());
     return join_words(names);
   }

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "scene_files.hpp"
 
 namespace grainstep::scene {
@@ -71,8 +73,9 @@ TEST(Include, ManyFilesThatIncludeTwoOthers) {
   const SceneFiles files;
   files.write("0.yaml", minimal_scene);
   for (int i = 1; i < 30; ++i) {
-    const std::string before = std::to_string(i - 1) + ".yaml";
-    files.write(std::to_string(i) + ".yaml", "include: [" + before + ", " + before + "]\n");
+    std::ostringstream text;
+    text << "include: [" << i - 1 << ".yaml, " << i - 1 << ".yaml]\n";
+    files.write(std::to_string(i) + ".yaml", text.str());
   }
   EXPECT_THAT(load_error(files, files.folder() / "29.yaml"), HasSubstr("more than 64 included files"));
 }

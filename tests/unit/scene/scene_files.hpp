@@ -48,7 +48,7 @@ class SceneFiles {
   }
 
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const auto path = folder_ / name;
+    auto path = folder_ / name;
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path, std::ios::binary) << text;
     return path;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <ostream>
 #include <thread>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct Case {
   const char* unit;
   double si;
 };
+
+/// Names the case in the test's output.
+void PrintTo(const Case& written, std::ostream* out) { *out << written.text; }
 
 class Quantity : public testing::TestWithParam<Case> {};
 
