@@ -95,7 +95,7 @@ void set_scalar(const Tree& node, Message& message, const FieldDescriptor& field
     case FieldDescriptor::CPPTYPE_STRING:
       return put(&R::SetString, &R::AddString, parse_text(node));
     default:
-      GS_ASSERT(false, field.full_name() + " has a type that no scene can hold");
+      assertion_failed("known type", __FILE__, __LINE__, field.full_name() + " has a type that no scene can hold");
   }
 }
 

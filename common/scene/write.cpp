@@ -43,7 +43,7 @@ std::string scalar_text(const Message& message, const FieldDescriptor& field, in
     case FieldDescriptor::CPPTYPE_STRING:
       return quoted(list ? r.GetRepeatedString(message, &field, index) : r.GetString(message, &field));
     default:
-      GS_ASSERT(false, field.full_name() + " has a type that no scene can hold");
+      assertion_failed("known type", __FILE__, __LINE__, field.full_name() + " has a type that no scene can hold");
   }
 }
 
