@@ -121,6 +121,10 @@ class MassOnSpring:
     def stable_step(self):
         return 2.0 * (self.mass / self.stiffness) ** 0.5 if self.stiffness > 0.0 else 1.0
 
+    def preferred_step(self):
+        """Far below the stable one: a target that moves in coarse steps would be hit in coarse steps."""
+        return min(1e-3 * self.stable_step(), 1e-6)
+
     def nodes(self):
         return [self.left, self.x, self.right, self.x]
 
@@ -191,7 +195,7 @@ class Participant:
         model = MassOnSpring(setup, self.options.stiffness)
         surface = wire.Surface(position=model.nodes(), velocity=model.velocities(), segment=[0, 1])
         self.talk.send(ready=wire.Ready(scene_hash=setup.scene_hash, stable_step=model.stable_step(),
-                                        preferred_step=model.stable_step(), size=1, mass=model.mass, surface=surface))
+                                        preferred_step=model.preferred_step(), size=1, mass=model.mass, surface=surface))
         return model
 
     def run(self):

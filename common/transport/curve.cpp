@@ -50,7 +50,7 @@ std::string read_key(const fs::path& file) {
   std::ifstream in(file);
   std::string text;
   if (!(in >> text)) {
-    throw InputError(file.string() + ": cannot be read; keys are made by `grainstep keys DIR` or transport::make_keys");
+    throw InputError(file.string() + ": cannot be read; `grainstep-keys DIR` makes keys");
   }
   std::array<std::uint8_t, 32> bytes{};
   if (text.size() != key_text_size || ::zmq_z85_decode(bytes.data(), text.c_str()) == nullptr) {

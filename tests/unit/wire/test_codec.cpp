@@ -49,7 +49,8 @@ TEST(Codec, the_bytes_are_the_documented_ones) {
   forces.set_window(5);
   forces.add_impulse(1.0);
   const auto frame = copy(encoder.encode(forces));
-  EXPECT_EQ(std::memcmp(frame.data(), "GSTP\x01\0\0\0\x01\0\0\0\0\0\0\0", 16), 0);
+  // proto/README.md prints these bytes.
+  EXPECT_EQ(std::memcmp(frame.data(), "GSTP\x01\0\0\0\x01\0\0\0\0\0\0\0\x75\x0c\xdc\x68\x67\x77\xe4\xb5", 24), 0);
   Envelope envelope;  // what any Protobuf library would send and expect
   *envelope.mutable_forces() = forces;
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(frame.data()) + header_size, frame.size() - header_size),
