@@ -18,6 +18,14 @@ void EventLoop::add(const transport::Channel& channel) {
   sources_.push_back({channel.wakeup(), nullptr});
 }
 
+void EventLoop::remove(int fd) {
+  for (Source& source : sources_) {
+    if (source.fd == fd) {
+      source.fd = -1;  // poll() passes over it; the place stays, because wait() may be walking through the list
+    }
+  }
+}
+
 void EventLoop::wait(transport::Deadline deadline) {
   using std::chrono::milliseconds;
   const auto left = std::chrono::ceil<milliseconds>(deadline - transport::Clock::now());
@@ -32,7 +40,8 @@ void EventLoop::wait(transport::Deadline deadline) {
   }
   for (std::size_t i = 0; ready > 0 && i < fds.size(); ++i) {
     if (fds[i].revents != 0 && sources_[i].action) {
-      sources_[i].action();
+      const Action action = sources_[i].action;  // it may add sources
+      action();
     }
   }
 }

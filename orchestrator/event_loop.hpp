@@ -16,6 +16,9 @@ class EventLoop {
   /// `action` runs inside wait() whenever `fd` is readable; it must take what made it so. It may throw.
   void add(int fd, Action action);
 
+  /// Forgets `fd`; may be called by its own action.
+  void remove(int fd);
+
   /// A channel only wakes wait() up.
   void add(const transport::Channel& channel);
 

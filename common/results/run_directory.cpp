@@ -16,7 +16,7 @@ bool RunDirectory::holds_a_run() const {
 
 void RunDirectory::remove_run() const {
   std::error_code error;
-  for (const fs::path& file : {results(), summary(), scene()}) {
+  for (const fs::path& file : {results(), summary(), scene(), path_ / "particles.pvd", path_ / "structure.pvd"}) {
     if (!error) {
       fs::remove(file, error);
     }

@@ -18,8 +18,8 @@ std::size_t columns_of(unsigned components) { return components == 1 ? 0 : compo
 Snapshots::Snapshots(const RunDirectory& directory, ResultsFile& file)
     : directory_(directory),
       file_(file),
-      particles_{.name = "particles", .collection = vtk::TimeSeries(directory.paraview() / "particles.pvd")},
-      structure_{.name = "structure", .collection = vtk::TimeSeries(directory.paraview() / "structure.pvd")} {}
+      particles_{.name = "particles", .collection = vtk::TimeSeries(directory.path() / "particles.pvd")},
+      structure_{.name = "structure", .collection = vtk::TimeSeries(directory.path() / "structure.pvd")} {}
 
 void Snapshots::add_arrays(const std::string& group, double time, const wire::Snapshot& snapshot) {
   file_.add(
@@ -57,7 +57,7 @@ void Snapshots::add(wire::Role side, double time, const wire::Snapshot& snapshot
   const bool is_particles = side == wire::IMPACTOR;
   const std::string file = std::string(target.name) + "_" + number + (is_particles ? ".vtp" : ".vtu");
   write_atomically(directory_.paraview() / file, is_particles ? vtk::particles(snapshot) : vtk::structure(snapshot));
-  target.collection.add(time, file);
+  target.collection.add(time, (directory_.paraview().filename() / file).string());
 }
 
 }  // namespace grainstep::results

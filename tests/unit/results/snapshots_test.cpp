@@ -55,8 +55,8 @@ TEST_F(SnapshotsTest, StructureIsReadByVtkAndByH5py) {
   const std::string seen = read_with("vtk", directory_.paraview() / "structure_0001.vtu");
   EXPECT_THAT(seen, HasSubstr("points 3 cells 1\ntypes [5]\n"));
   EXPECT_THAT(seen, HasSubstr("cell von_mises_stress [400000000.0]"));
-  EXPECT_EQ(read_with("collection", directory_.paraview() / "structure.pvd"),
-            "0 structure_0000.vtu\n1.2500000000000001e-05 structure_0001.vtu\n");
+  EXPECT_EQ(read_with("collection", directory_.path() / "structure.pvd"),
+            "0 paraview/structure_0000.vtu\n1.2500000000000001e-05 paraview/structure_0001.vtu\n");
   const std::string arrays = read_with("hdf5", directory_.results());
   EXPECT_THAT(arrays, HasSubstr("snapshots/structure/0001/time unit=s title=time since first contact [1.25e-05]"));
   EXPECT_THAT(arrays, HasSubstr("snapshots/structure/0000/cell unit= title=points of every triangle [[0, 1, 2]]"));

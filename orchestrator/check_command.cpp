@@ -1,0 +1,76 @@
+#include "orchestrator/check_command.hpp"
+
+#include <cstdio>
+
+#include "orchestrator/preparation.hpp"
+#include "orchestrator/progress.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+constexpr double mebibyte = 1024.0 * 1024.0;
+
+void print_groups(const scene::Groups& g) {
+  std::printf("impulse number I_o       %.4g\n", g.impulse_number);
+  std::printf("areal mass ratio m_bar   %.4g\n", g.areal_mass_ratio);
+  std::printf("loading time ratio tau   %.4g\n", g.loading_time_ratio);
+  std::printf("width ratio a/L          %.4g\n", g.width_ratio);
+  std::printf("end                      %.4g s, t_bar %.4g, t_hat %.4g\n", g.end, g.end / g.reference_time,
+              g.end / g.slug_time);
+}
+
+void print_plan(const StepPlan& plan) {
+  std::printf("steps                    impactor %.4g s, structure %.4g s; %u and %u per window of %.4g s\n",
+              plan.impactor_step, plan.structure_step, plan.impactor_steps, plan.structure_steps, plan.window);
+  std::printf("windows                  %llu\n", static_cast<unsigned long long>(plan.windows));
+}
+
+void print_sides(const Preparation& p) {
+  if (p.impactor) {
+    std::printf("particles                %llu, stable step %.4g s, contact time %.4g s\n",
+                static_cast<unsigned long long>(p.impactor->particles), p.impactor->stable_step,
+                p.impactor->contact_time);
+  } else {
+    std::printf("particles                known to the external impactor\n");
+  }
+  if (p.structure) {
+    std::printf("elements                 %llu, stable step %.4g s, element size %.4g m\n",
+                static_cast<unsigned long long>(p.structure->elements), p.structure->stable_step,
+                p.structure->element_size);
+  } else {
+    std::printf("elements                 known to the external structure\n");
+  }
+}
+
+void print_cost(const Preparation& p) {
+  if (!p.plan) {
+    return;
+  }
+  const auto windows = static_cast<double>(p.plan->windows);
+  const double impactor = windows * p.plan->impactor_steps * static_cast<double>(p.impactor->particles) *
+                          p.impactor->seconds_per_particle_step;
+  const double structure = windows * p.plan->structure_steps * static_cast<double>(p.structure->elements) *
+                           p.structure->seconds_per_element_step;
+  std::printf("memory                   %.0f MiB impactor, %.0f MiB structure\n",
+              static_cast<double>(p.impactor->memory_bytes) / mebibyte,
+              static_cast<double>(p.structure->memory_bytes) / mebibyte);
+  std::printf("estimated time           %s impactor, %s structure, at the same time on a core each\n",
+              duration_text(impactor).c_str(), duration_text(structure).c_str());
+}
+
+}  // namespace
+
+void check(const SceneOptions& options) {
+  RunOptions run;
+  run.scene = options;
+  const Preparation p = prepare(run);
+  std::printf("%s\n", p.scene.title().empty() ? options.scene.c_str() : p.scene.title().c_str());
+  print_groups(p.groups);
+  print_sides(p);
+  if (p.plan) {
+    print_plan(*p.plan);
+  }
+  print_cost(p);
+}
+
+}  // namespace grainstep::orchestrator

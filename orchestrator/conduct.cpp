@@ -1,0 +1,167 @@
+#include "orchestrator/conduct.hpp"
+
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <optional>
+
+#include "orchestrator/build_info.hpp"
+#include "orchestrator/interrupted.hpp"
+#include "orchestrator/recorder.hpp"
+#include "orchestrator/session.hpp"
+#include "orchestrator/summary.hpp"
+#include "results/atomic_file.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<results::Text> texts(const Preparation& preparation) {
+  const BuildInfo& build = build_info();
+  return {{"/scene/yaml", "the resolved scene", preparation.yaml},
+          {"/scene/hash", "XXH3 of the resolved scene", std::to_string(preparation.hash)},
+          {"/scene/title", "the scene's title", preparation.scene.title()},
+          {"/build/version", "version of grainstep", build.version},
+          {"/build/commit", "commit of the sources", build.commit},
+          {"/build/compiler", "compiler", build.compiler},
+          {"/build/isa", "instruction set of the machine", build.isa}};
+}
+
+/// The parts of a run that its end needs to know.
+class Run {
+ public:
+  Run(Hub& hub, const Conduct& how)
+      : hub_(hub),
+        how_(how),
+        session_(hub, {.scene = how.preparation.scene, .hash = how.preparation.hash, .end = how.preparation.groups.end},
+                 how.deadlines) {}
+
+  void go() {
+    const Preparation& p = how_.preparation;
+    results::write_atomically(how_.directory.scene(), p.yaml);
+    file_.emplace(how_.directory.results(), texts(p));
+    file_->add(results::Array{
+        .dataset = "/scene/end", .meaning = {"s", "when the run is to end"}, .values = {p.groups.end}, .indices = {}});
+    session_.introduce();
+    plan_ = session_.prepare();
+    progress_.emplace(stdout, how_.progress, plan_->windows, plan_->window / p.groups.reference_time);
+    recorder_.emplace(
+        Recorder::Context{
+            .scene = p.scene, .groups = p.groups, .plan = *plan_, .surface = hub_.structure().ready.surface()},
+        how_.directory, *file_, [this](std::uint64_t window) { progress_->tick(window); });
+    session_.run(*plan_, *recorder_);
+  }
+
+  /// Runs go() and turns whatever ends it into an Ending; the other side is told.
+  Ending end() {
+    try {
+      go();
+      return keep({});
+    } catch (const PeerError& error) {
+      std::string reason = error.what();
+      if (how_.account_of) {
+        if (const std::string account = how_.account_of(error.peer()); !account.empty()) {
+          reason += "; " + account;
+        }
+      }
+      return abandon({ExitCode::peer, reason}, error.peer());
+    } catch (const InputError& error) {
+      return abandon({ExitCode::bad_input, error.what()});
+    } catch (const NumericalError& error) {
+      return abandon({ExitCode::numerical, error.what()});
+    } catch (const OutputError& error) {
+      return abandon({ExitCode::output, error.what()});
+    } catch (const Interrupted& error) {
+      return abandon({ExitCode::interrupted, error.what()});
+    }
+  }
+
+  [[nodiscard]] nlohmann::ordered_json summary_of(const Ending& ending) const {
+    const std::string status = ending.code == ExitCode::done          ? "done"
+                               : ending.code == ExitCode::interrupted ? "interrupted"
+                                                                      : "failed";
+    const std::chrono::duration<double> wall = transport::Clock::now() - started_;
+    return summary({.status = status,
+                    .reason = ending.reason,
+                    .scene = how_.preparation.scene,
+                    .groups = how_.preparation.groups,
+                    .plan = plan_,
+                    .findings = recorder_ ? recorder_->findings() : Findings{},
+                    .impactor = hub_.impactor().ready,
+                    .structure = hub_.structure().ready,
+                    .impactor_timing = hub_.impactor().timing,
+                    .structure_timing = hub_.structure().timing,
+                    .wall_seconds = wall.count(),
+                    .orchestrator_seconds = processor_seconds() - processor_at_start_});
+  }
+
+ private:
+  Ending abandon(const Ending& ending, const std::string& lost = "") {
+    session_.abandon(ending.reason, lost);
+    return keep(ending);
+  }
+
+  // What was computed is kept, whatever the end; a first failure's reason is not hidden by that of writing.
+  Ending keep(Ending ending) {
+    if (progress_) {
+      progress_->finish();
+    }
+    try {
+      if (file_) {
+        add_backends();
+        file_->flush();
+      }
+    } catch (const OutputError& error) {
+      if (ending.code == ExitCode::done) {
+        ending = {ExitCode::output, error.what()};
+      }
+    }
+    return ending;
+  }
+
+  void add_backends() {
+    for (const auto& [side, peer] : {std::pair{"impactor", &hub_.impactor()}, {"structure", &hub_.structure()}}) {
+      file_->add(results::Array{.dataset = std::string("/timings/total/") + side,
+                                .meaning = {"s", "wall clock: computing " + peer->hello.backend() + ", waiting"},
+                                .values = {peer->timing.compute(), peer->timing.wait()},
+                                .indices = {}});
+    }
+  }
+
+  Hub& hub_;
+  const Conduct& how_;
+  Session session_;
+  transport::Clock::time_point started_ = transport::Clock::now();
+  double processor_at_start_ = processor_seconds();
+  std::optional<StepPlan> plan_;
+  std::optional<results::ResultsFile> file_;
+  std::optional<Progress> progress_;
+  std::optional<Recorder> recorder_;
+};
+
+}  // namespace
+
+Ending conduct(Hub& hub, const Conduct& how) {
+  Run run(hub, how);
+  Ending ending = run.end();
+  const nlohmann::ordered_json summary = run.summary_of(ending);
+  try {
+    results::write_atomically(how.directory.summary(), summary.dump(2) + "\n");
+  } catch (const OutputError& error) {
+    if (ending.code == ExitCode::done) {
+      ending = {ExitCode::output, error.what()};
+    }
+  }
+  if (how.progress != Progress::Style::quiet) {
+    std::fputs(digest(summary).c_str(), stdout);
+    std::fflush(stdout);
+  }
+  return ending;
+}
+
+}  // namespace grainstep::orchestrator

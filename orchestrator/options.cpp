@@ -1,0 +1,71 @@
+#include "orchestrator/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.hpp"
+#include "orchestrator/build_info.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+void add_scene(CLI::App& command, SceneOptions& options) {
+  command.add_option("scene", options.scene, "Scene file (docs/user/scene-reference.md)")->required();
+  command.add_option("--set", options.set, "PATH=VALUE: overrides a key, e.g. impactor.slug.speed='300 m/s'")
+      ->allow_extra_args(false);
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& options) {
+  CLI::App* run = app.add_subcommand("run", "Compute a scene");
+  add_scene(*run, options.scene);
+  run->add_option("--out", options.out, "Directory of the results (default: runs/<name of the scene>)");
+  run->add_option("--ranks", options.ranks, "MPI ranks of the impactor")->check(CLI::Range(1, 4096));
+  run->add_flag("--force", options.force, "Replace the run that is in the directory");
+  run->add_flag("--quiet", options.quiet, "No progress, no summary on the terminal");
+  run->add_option("--connect-deadline", options.deadlines.connect_s, "Seconds until both participants must be there")
+      ->check(CLI::PositiveNumber);
+  run->add_option("--step-deadline", options.deadlines.step_s, "Seconds of silence after which a participant is lost")
+      ->check(CLI::PositiveNumber);
+  run->add_option("--external", options.external, "A participant that somebody else starts: impactor or structure")
+      ->check(CLI::IsMember({"impactor", "structure"}))
+      ->allow_extra_args(false);
+  run->add_option("--listen", options.listen,
+                  "tcp://HOST:PORT for external participants; the structure's port is the next one");
+  run->add_option("--curve-dir", options.curve_dir, "Directory with the keys that encrypt tcp");
+  run->add_flag("--allow-plain-tcp", options.allow_plain_tcp, "Let tcp leave this host without encryption");
+  return run;
+}
+
+}  // namespace
+
+CommandLine parse(int argc, const char* const* argv) {
+  CLI::App app{"Granular flow meets structure: DEM and FE in lock step", "grainstep"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", build_info().version);
+  RunOptions run_options;
+  SceneOptions check_options;
+  ShowOptions show_options;
+  const CLI::App* run = add_run(app, run_options);
+  CLI::App* check = app.add_subcommand("check", "Validate a scene and say what it would cost");
+  add_scene(*check, check_options);
+  CLI::App* show = app.add_subcommand("show", "What a finished or running run says");
+  show->add_option("directory", show_options.directory, "Directory of a run")->required();
+  show->add_flag("--json", show_options.json, "summary.json, or progress, as JSON");
+
+  CommandLine out;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    out.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    return out;
+  }
+  if (run->parsed()) {
+    out.run = run_options;
+  } else if (check->parsed()) {
+    out.check = check_options;
+  } else {
+    out.show = show_options;
+  }
+  return out;
+}
+
+}  // namespace grainstep::orchestrator

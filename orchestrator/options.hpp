@@ -1,0 +1,47 @@
+/// @file What the command line says.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orchestrator/hub.hpp"
+
+namespace grainstep::orchestrator {
+
+struct SceneOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> set;  ///< PATH=VALUE, in order
+};
+
+struct RunOptions {
+  SceneOptions scene;
+  std::filesystem::path out;  ///< empty: runs/<name of the scene>
+  int ranks = 1;              ///< of the impactor
+  bool force = false;
+  bool quiet = false;
+  Deadlines deadlines;
+  std::string listen;               ///< tcp://host:port for external participants; empty: a private ipc socket
+  std::filesystem::path curve_dir;  ///< keys for tcp
+  bool allow_plain_tcp = false;
+  std::vector<std::string> external;  ///< "impactor", "structure"
+};
+
+struct ShowOptions {
+  std::filesystem::path directory;
+  bool json = false;
+};
+
+/// One of the commands with its options; `exit_code` instead where the command line was answered already (--help) or
+/// cannot be used (one message was written).
+struct CommandLine {
+  std::optional<int> exit_code;
+  std::optional<RunOptions> run;
+  std::optional<SceneOptions> check;
+  std::optional<ShowOptions> show;
+};
+
+[[nodiscard]] CommandLine parse(int argc, const char* const* argv);
+
+}  // namespace grainstep::orchestrator

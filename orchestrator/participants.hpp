@@ -1,0 +1,47 @@
+/// @file Both participants of a run: which of them are ours to start, where they connect, and how they are started.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "grainstep/scene.pb.h"
+#include "orchestrator/options.hpp"
+#include "orchestrator/supervision.hpp"
+#include "orchestrator/temporary_directory.hpp"
+#include "results/run_directory.hpp"
+#include "transport/zmq_channel.hpp"
+
+namespace grainstep::orchestrator {
+
+/// By the scene or by the command line.
+[[nodiscard]] bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& options);
+
+class Participants {
+ public:
+  /// Opens both endpoints. InputError when one cannot be had.
+  Participants(const scene::Scene& scene, const RunOptions& options);
+
+  [[nodiscard]] transport::Channel& impactor() { return *impactor_.channel; }
+  [[nodiscard]] transport::Channel& structure() { return *structure_.channel; }
+
+  /// Starts those that are ours and prints, for the others, the command that starts them.
+  void start(Supervision& supervision, const results::RunDirectory& directory);
+
+ private:
+  struct Side {
+    wire::Role role;
+    bool external;
+    std::string program;
+    std::unique_ptr<transport::ZmqChannel> channel;
+  };
+  [[nodiscard]] std::string endpoint_of(const Side& side) const;
+  void open(Side& side);
+  void start(const Side& side, Supervision& supervision, const results::RunDirectory& directory) const;
+
+  RunOptions options_;
+  TemporaryDirectory sockets_;
+  Side impactor_;
+  Side structure_;
+};
+
+}  // namespace grainstep::orchestrator

@@ -1,0 +1,22 @@
+/// @file A directory that only its owner may enter, gone when this object is: home of local sockets.
+#pragma once
+
+#include <filesystem>
+
+namespace grainstep::orchestrator {
+
+class TemporaryDirectory {
+ public:
+  /// In $TMPDIR or /tmp; in /tmp in any case where a socket's path would become too long. Throws InputError.
+  TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  ~TemporaryDirectory();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace grainstep::orchestrator
