@@ -5,10 +5,10 @@
 
 #include <cstring>
 
+#include "../../support/fe_scenes.hpp"
 #include "fe-service/body.hpp"
 #include "fe-service/layers.hpp"
 #include "reference_loop.hpp"
-#include "scenes.hpp"
 
 namespace grainstep::fe {
 namespace {

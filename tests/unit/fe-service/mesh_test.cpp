@@ -5,8 +5,8 @@
 
 #include <numeric>
 
+#include "../../support/fe_scenes.hpp"
 #include "base/error.hpp"
-#include "scenes.hpp"
 
 namespace grainstep::fe {
 namespace {

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../support/fe_scenes.hpp"
 #include "base/error.hpp"
 #include "fe-service/preview.hpp"
 #include "fe-service/rigid.hpp"
-#include "scenes.hpp"
 
 namespace grainstep::fe {
 namespace {
@@ -163,6 +163,31 @@ TEST(Structure, TakesMoreStepsWhereStabilityAsksForIt) {
   const Record given = run(kSmallBeam, 2.5 * stable, 3, 50);
   EXPECT_EQ(asked.reports.back().timing().steps(), given.reports.back().timing().steps());
   EXPECT_EQ(value_of(asked.reports.back(), "deflection"), value_of(given.reports.back(), "deflection"));
+}
+
+// A pressure of some 2 GPa on the loaded face flattens the elements below it.
+TEST(Structure, TakesMoreStepsAsElementsAreFlattened) {
+  Structure structure;
+  const wire::Ready ready = structure.prepare(setup_of(kSmallBeam));
+  structure.start(start_of(ready.preferred_step(), 1));
+  const int nodes = ready.surface().position_size() / 2;
+  wire::Report report;
+  const double force = 2e9 * 1e-3 * 0.1 / 30;  // N on a node
+  for (std::uint64_t n = 0; n < 3000 && report.timing().steps() <= n; ++n) {
+    wire::Forces forces;
+    forces.set_window(n);
+    for (int k = 0; k < nodes; ++k) {
+      forces.add_impulse(0.0);
+      forces.add_impulse(k < 20 ? -force * ready.preferred_step() : 0.0);
+    }
+    wire::Kinematics next;
+    structure.advance(forces, {.report = true}, next);
+    structure.report(report);
+    structure.complete();
+  }
+  EXPECT_GT(report.timing().steps(), report.window());
+  EXPECT_LT(value_of(report, "stable_step"), ready.preferred_step() / 0.97);
+  EXPECT_GT(value_of(report, "min_element_quality"), 0.5);
 }
 
 TEST(Structure, FixedStepBeyondStabilityIsRefusedWithItsPlace) {
