@@ -25,7 +25,34 @@ bool Hub::take_one(Peer& peer, const Handler& handler) {
   return true;
 }
 
+void Hub::hear_last_words(const std::string& peer) {
+  Peer& lost = peer == impactor_.name() ? impactor_ : structure_;
+  while (!lost.finished) {
+    const wire::Frame* frame = nullptr;
+    try {
+      frame = lost.messages.receive(transport::in(std::chrono::milliseconds(100)));
+    } catch (const PeerError&) {  // nothing more, or nothing that can be read
+    }
+    if (frame == nullptr) {
+      return;
+    }
+    if (frame->kind == wire::Envelope::kError) {
+      lost.finished = true;
+      throw_error_of(lost, *frame);
+    }
+  }
+}
+
 bool Hub::run(const Handler& handler, const Done& done, const Until& deadline) {
+  try {
+    return run_until(handler, done, deadline);
+  } catch (const PeerError& error) {
+    hear_last_words(error.peer());
+    throw;
+  }
+}
+
+bool Hub::run_until(const Handler& handler, const Done& done, const Until& deadline) {
   while (true) {
     // A channel's wake-up is an edge, and sending may swallow it: wait only after both channels said "nothing" in turn.
     bool again = true;

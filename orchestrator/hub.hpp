@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
+#include "base/error.hpp"
 #include "orchestrator/event_loop.hpp"
 #include "orchestrator/peer.hpp"
 
@@ -34,7 +36,23 @@ class Hub {
   /// wait, has passed (false). An Error of a participant becomes the exception it stands for.
   bool run(const Handler& handler, const Done& done, const Until& deadline);
 
+  template <wire::Body Message>
+  void send(Peer& peer, const Message& message) {
+    try {
+      peer.messages.send(message);
+    } catch (const PeerError& error) {
+      hear_last_words(error.peer());
+      throw;
+    }
+  }
+
  private:
+  bool run_until(const Handler& handler, const Done& done, const Until& deadline);
+
+  /// A participant that fails says why and goes; its going may be noticed first, when something is sent to it. Throws
+  /// what its Error stands for, if there is one.
+  void hear_last_words(const std::string& peer);
+
   bool take_one(Peer& peer, const Handler& handler);
 
   Peer impactor_;

@@ -62,7 +62,7 @@ wire::Setup Session::setup() const {
 }
 
 void Session::make_ready(Peer& peer, const wire::Setup& setup) {
-  peer.messages.send(setup);
+  hub_.send(peer, setup);
   bool ready = false;
   const auto handler = [&](Peer& from, const wire::Frame& frame) {
     if (&from != &peer) {
@@ -109,8 +109,8 @@ StepPlan Session::prepare() {
 
 void Session::run(const StepPlan& plan, StepObserver& observer) {
   const wire::Start start = plan.start();
-  hub_.structure().messages.send(start);
-  hub_.impactor().messages.send(start);
+  hub_.send(hub_.structure(), start);
+  hub_.send(hub_.impactor(), start);
   LockStep(hub_, observer, start, deadlines_.step_s).run();
   complete();
 }
@@ -118,8 +118,8 @@ void Session::run(const StepPlan& plan, StepObserver& observer) {
 void Session::complete() {
   wire::Stop message;
   message.set_reason("complete");
-  hub_.impactor().messages.send(message);
-  hub_.structure().messages.send(message);
+  hub_.send(hub_.impactor(), message);
+  hub_.send(hub_.structure(), message);
   const auto handler = [](Peer& peer, const wire::Frame& frame) {
     wire::Finished last;
     peer.messages.take(frame, last);

@@ -305,6 +305,17 @@ TEST_F(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
   EXPECT_EQ(witness_.forces_.size(), 1U);
 }
 
+// The structure fails and goes while Forces for it are on their way: the loss is noticed when they are sent.
+TEST_F(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
+  wire::Error error;
+  error.set_kind(wire::Error::NUMERICAL);
+  error.set_text("an element is inside out");
+  structure_.messages_->send(error);
+  structure_.far_.reset();
+  impactor_.messages_->send(forces(0));
+  EXPECT_EQ(run(), "numerical: structure: an element is inside out");
+}
+
 TEST_F(HandPlayed, DamagedBytesArePeerErrors) {
   const std::vector<std::byte> noise(40, std::byte{7});
   impactor_.far_->send(noise);

@@ -1,0 +1,57 @@
+/// @file in-process SCENE OUT [PATH=VALUE...]: the same run as `grainstep run`, but both participants are threads of
+/// this process and the messages never leave it. What processes and sockets do to a result is what differs from this.
+#include <cstdio>
+#include <sstream>
+#include <thread>
+
+#include "base/error.hpp"
+#include "dem-service/impactor.hpp"
+#include "fe-service/structure.hpp"
+#include "orchestrator/conduct.hpp"
+#include "orchestrator/preparation.hpp"
+#include "participant/serve.hpp"
+#include "transport/in_process_channel.hpp"
+
+namespace {
+
+using grainstep::transport::Channel;
+
+int run(const grainstep::orchestrator::RunOptions& options) {
+  using namespace grainstep;
+  const auto preparation = orchestrator::prepare(options);
+  const results::RunDirectory directory(options.out);
+  directory.prepare(results::Existing::refuse);
+  auto [impactor, impactor_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "impactor"});
+  auto [structure, structure_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "structure"});
+  std::thread particles([end = std::move(impactor_end)] {
+    const auto backend = dem::make_impactor({});
+    static_cast<void>(participant::serve_impactor(*end, *backend));
+  });
+  std::thread elements([end = std::move(structure_end)] {
+    fe::Structure backend;
+    static_cast<void>(participant::serve_structure(*end, backend));
+  });
+  orchestrator::EventLoop loop;
+  orchestrator::Hub hub(*impactor, *structure, loop);
+  const auto ending = orchestrator::conduct(
+      hub, {.preparation = preparation, .directory = directory, .deadlines = {}, .account_of = {}});
+  particles.join();
+  elements.join();
+  std::fputs(ending.reason.c_str(), stderr);
+  return static_cast<int>(ending.code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  grainstep::orchestrator::RunOptions options;
+  options.scene.scene = argv[1];
+  options.out = argv[2];
+  options.scene.set.assign(argv + 3, argv + argc);
+  try {
+    return run(options);
+  } catch (const grainstep::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(grainstep::ExitCode::bad_input);
+  }
+}

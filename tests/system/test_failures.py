@@ -1,0 +1,156 @@
+"""Whatever goes wrong: the right exit code, one message that names the culprit, what was computed kept, nothing left."""
+import resource
+import unittest
+
+from runs import BIN, LONG, SOURCE, Run, descendants, json, os, pathlib, signal, subprocess, tempfile, until
+
+LOST = 5.0  # s: what a lost participant may cost
+
+
+class LostParticipant(unittest.TestCase):
+    def lose(self, side, how):
+        with Run(*LONG) as run:
+            run.wait_for_rows()
+            os.kill(run.process_of(side), how)
+            run.end(LOST)
+            self.assertEqual(run.code, 4, run.stderr)
+            self.assertTrue(run.stderr.startswith(f"grainstep: {side}: "), run.stderr)
+            run.left_over()
+            self.assertGreaterEqual(run.rows(), 1)
+            self.assertEqual(run.summary()["status"], "failed")
+            self.assertIn(side, run.summary()["reason"])
+            return run.stderr
+
+    def test_impactor_killed(self):
+        self.assertIn("SIGKILL", self.lose("impactor", signal.SIGKILL))
+
+    def test_structure_killed(self):
+        self.assertIn("SIGKILL", self.lose("structure", signal.SIGKILL))
+
+    def test_impactor_frozen(self):
+        self.lose("impactor", signal.SIGSTOP)
+
+    def test_structure_frozen(self):
+        self.lose("structure", signal.SIGSTOP)
+
+    def test_never_connected(self):
+        with Run("--external", "impactor", "--connect-deadline", "1") as run:
+            run.family = until(lambda: descendants(run.process.pid), "a structure")
+            run.end()
+            self.assertEqual(run.code, 4)
+            self.assertIn("grainstep: impactor: did not connect within 1 s", run.stderr)
+            self.assertEqual(len(run.family), 1, "the structure was started")
+            run.left_over()
+
+
+class Interrupted(unittest.TestCase):
+    def interrupt(self, how):
+        with Run(*LONG) as run:
+            run.wait_for_rows()
+            run.process.send_signal(how)
+            run.end(LOST)
+            self.assertEqual(run.code, 130, run.stderr)
+            self.assertEqual(run.summary()["status"], "interrupted")
+            self.assertGreaterEqual(run.rows(), 1)
+            run.left_over()
+
+    def test_by_the_keyboard(self):
+        self.interrupt(signal.SIGINT)
+
+    def test_by_the_system(self):
+        self.interrupt(signal.SIGTERM)
+
+    def test_orchestrator_killed_leaves_readable_results_and_no_process(self):
+        with Run(*LONG) as run:
+            run.wait_for_rows()
+            run.process.kill()
+            run.end()
+            run.left_over()
+            self.assertGreaterEqual(run.rows(), 1)
+            shown = subprocess.run([BIN / "grainstep", "show", run.out, "--json"], capture_output=True, text=True)
+            self.assertEqual(json.loads(shown.stdout)["status"], "running")
+
+
+class Numerical(unittest.TestCase):
+    def test_a_broken_guard_says_what_to_do(self):
+        with Run("--set", "guards.energy_drift=1e-4") as run:
+            run.end()
+            self.assertEqual(run.code, 3)
+            self.assertIn("guards.energy_drift: found", run.stderr)
+            self.assertIn("smaller", run.stderr)
+            self.assertEqual(run.summary()["status"], "failed")
+            self.assertGreaterEqual(run.rows(), 1)
+
+    def test_a_participant_that_fails_says_why(self):
+        with Run(*LONG, "--set", "steps.structure=2") as run:  # fixed at the edge of stability: elements thin out
+            run.end()
+            self.assertEqual(run.code, 3, run.stderr)
+            self.assertTrue(run.stderr.startswith("grainstep: structure: "), run.stderr)
+            self.assertIn("steps.structure", run.stderr)
+
+    def test_a_full_disk_ends_the_run_and_keeps_what_was_written(self):
+        limit = 2 << 20  # a limit on the size of a file stands for a full disk
+
+        def restrict():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+        with Run(*LONG, "--set", "output.rows=20000", preexec_fn=restrict) as run:
+            run.end()
+            self.assertEqual(run.code, 5, run.stderr)
+            self.assertIn("results.h5", run.stderr)
+            self.assertGreaterEqual(run.rows(), 0)
+            self.assertEqual(run.summary()["status"], "failed")
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, run, text):
+        run.end()
+        self.assertEqual(run.code, 2, run.stderr)
+        self.assertIn(text, run.stderr)
+        self.assertEqual(run.stderr.count("grainstep: "), 1, run.stderr)
+        self.assertEqual(run.stdout, "", "nothing was started")
+
+    def test_every_invalid_scene(self):
+        scenes = sorted((SOURCE / "configs/invalid").glob("*.yaml"))
+        self.assertGreater(len(scenes), 10)
+        for scene in scenes:
+            expected = next(line.split("expect: ")[1].rstrip("\n") for line in scene.read_text().split("\n")
+                            if line.startswith("# expect: "))
+            with self.subTest(scene.name), Run(scene=scene) as run:
+                self.refused(run, expected)
+                self.assertFalse(run.out.exists(), "no directory is made for a scene that cannot run")
+                checked = subprocess.run([BIN / "grainstep", "check", scene], capture_output=True, text=True)
+                self.assertEqual(checked.returncode, 2)
+                self.assertIn(expected, checked.stderr)
+
+    def test_a_directory_with_a_run_is_refused_and_replaced_on_demand(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            out = pathlib.Path(scratch) / "run"
+            with Run(out=out) as run:
+                self.assertEqual(run.end().code, 0, run.stderr)
+            before = (out / "summary.json").read_bytes()
+            with Run(out=out) as run:
+                self.refused(run, "--force")
+            self.assertEqual((out / "summary.json").read_bytes(), before)
+            with Run("--force", out=out) as run:
+                self.assertEqual(run.end().code, 0, run.stderr)
+            self.assertNotEqual((out / "summary.json").read_bytes(), before)
+
+    def test_places_that_cannot_be_written(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            (pathlib.Path(scratch) / "file").write_text("in the way")
+            for out in (pathlib.Path(scratch) / "file" / "run", pathlib.Path("/proc/nowhere/run")):
+                with self.subTest(out), Run(out=out) as run:
+                    self.refused(run, str(out))
+
+    def test_command_lines(self):
+        for arguments in (["run"], ["fly"], ["run", "x.yaml", "--ranks", "0"], ["show", "/nowhere"], []):
+            with self.subTest(arguments):
+                ended = subprocess.run([BIN / "grainstep", *arguments], capture_output=True, text=True)
+                self.assertEqual(ended.returncode, 2, ended.stderr)
+                self.assertNotEqual(ended.stderr, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
