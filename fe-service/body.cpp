@@ -30,8 +30,9 @@ int state_components(const Material& material) {
 
 /// Index of a triangle's component 0 in the state of its row.
 std::size_t state_index(int components, int column, int triangle) {
-  const std::size_t batch = static_cast<std::size_t>(column / kBatchQuads);
-  return batch * components * kBatchTriangles + triangle * kBatchQuads + column % kBatchQuads;
+  const auto batch = static_cast<std::size_t>(column / kBatchQuads);
+  const auto lane = static_cast<std::size_t>(triangle * kBatchQuads + column % kBatchQuads);
+  return batch * static_cast<std::size_t>(components) * static_cast<std::size_t>(kBatchTriangles) + lane;
 }
 
 }  // namespace
@@ -196,7 +197,8 @@ std::size_t Body::memory_bytes() const {
 
 double Body::state(int component, int row, int column, int triangle) const {
   const int components = state_components(material(row));
-  return state_[row][state_index(components, column, triangle) + component * kBatchTriangles];
+  const auto offset = static_cast<std::size_t>(component) * static_cast<std::size_t>(kBatchTriangles);
+  return state_[row][state_index(components, column, triangle) + offset];
 }
 
 Stress Body::stress(int row, int column, int triangle) const {

@@ -9,6 +9,7 @@ namespace grainstep::fe {
 
 [[nodiscard]] inline std::vector<Material> make_layers(const scene::Structure& structure) {
   std::vector<Material> layers;
+  layers.reserve(static_cast<std::size_t>(structure.layers_size()));
   for (int i = 0; i < structure.layers_size(); ++i) {
     layers.push_back(make_material(structure.layers(i), "structure.layers[" + std::to_string(i) + "]"));
   }

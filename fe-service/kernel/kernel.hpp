@@ -41,9 +41,10 @@ struct RowSweep {
 };
 
 constexpr std::size_t padded(int quads) {
-  return static_cast<std::size_t>((quads + kBatchQuads - 1) / kBatchQuads * kBatchQuads);
+  const auto lanes = static_cast<std::size_t>(kBatchQuads);
+  return (static_cast<std::size_t>(quads) + lanes - 1) / lanes * lanes;
 }
-constexpr std::size_t scratch_row(int quads) { return padded(quads) + 2 * kBatchQuads; }
+constexpr std::size_t scratch_row(int quads) { return padded(quads) + 2 * static_cast<std::size_t>(kBatchQuads); }
 constexpr std::size_t scratch_size(int quads) { return 8 * scratch_row(quads); }
 
 struct Kernels {
