@@ -31,8 +31,9 @@ int state_components(const Material& material) {
 /// Index of a triangle's component 0 in the state of its row.
 std::size_t state_index(int components, int column, int triangle) {
   const auto batch = static_cast<std::size_t>(column / kBatchQuads);
-  const auto lane = static_cast<std::size_t>(triangle * kBatchQuads + column % kBatchQuads);
-  return batch * static_cast<std::size_t>(components) * static_cast<std::size_t>(kBatchTriangles) + lane;
+  const int lane = triangle * kBatchQuads + column % kBatchQuads;
+  return batch * static_cast<std::size_t>(components) * static_cast<std::size_t>(kBatchTriangles) +
+         static_cast<std::size_t>(lane);
 }
 
 }  // namespace
