@@ -14,8 +14,8 @@ class App;
 namespace grainstep::participant {
 
 struct ConnectOptions {
-  std::string endpoint;             ///< "ipc:///path" or "tcp://host:port"
-  std::filesystem::path curve_dir;  ///< participant.key and orchestrator.pub (transport/curve.hpp); empty: plain
+  std::string endpoint;                  ///< "ipc:///path" or "tcp://host:port"
+  std::filesystem::path curve_dir = {};  ///< participant.key and orchestrator.pub (transport/curve.hpp); empty: plain
   double connect_deadline_s = 30.0;
   bool allow_plain_tcp = false;
 };

@@ -36,7 +36,7 @@ class Channel {
   [[nodiscard]] virtual bool receive(Bytes& message, Deadline deadline) = 0;
 
   /// A file descriptor that becomes readable when receive() may have something to say, for use in poll();
-  /// edge-triggered like ZMQ_FD: after a wake-up call receive() until it returns false. -1: none.
+  /// edge-triggered like ZMQ_FD: after a wake-up, and after a send(), call receive() until it returns false. -1: none.
   [[nodiscard]] virtual int wakeup() const { return -1; }
 };
 

@@ -17,8 +17,7 @@
 
 namespace grainstep::transport {
 
-/// Calls wakeup users must know: send() also may take in what arrived, so after a send, receive() until false before
-/// the next poll(). The binding end admits its peer inside receive() and wait_for_peer() only.
+/// The binding end admits its peer inside receive(), send() and wait_for_peer() only: somebody must call one of them.
 class ZmqChannel final : public Channel {
  public:
   /// Listens; the peer may come later. tcp takes "*" or 0 for a free port: ask endpoint(). The orchestrator's side.
