@@ -66,6 +66,8 @@ ZmqChannel::~ZmqChannel() {
   if (wakeup_ >= 0) {
     ::close(wakeup_);
   }
+  // Events that nobody can receive any more would be leaked by libzmq.
+  ::zmq_socket_monitor(socket_.handle(), nullptr, 0);
   if (watch_.lost() || !watch_.connected()) {
     socket_.set(zmq::sockopt::linger, 0);
   }
