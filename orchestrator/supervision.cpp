@@ -10,7 +10,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds last_words{500};
-constexpr milliseconds end_of_a_lost_one{500};
+constexpr milliseconds end_of_a_lost_one{200};
 constexpr std::size_t tail_lines = 8;
 
 }  // namespace

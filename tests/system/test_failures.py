@@ -7,7 +7,7 @@ from runs import BIN, LONG, SOURCE, Run, descendants, json, os, pathlib, signal,
 LOST = 5.0  # s: what a lost participant may cost
 
 
-class LostParticipant(unittest.TestCase):
+class Losing(unittest.TestCase):
     def lose(self, side, how):
         with Run(*LONG) as run:
             run.wait_for_rows()
@@ -21,18 +21,24 @@ class LostParticipant(unittest.TestCase):
             self.assertIn(side, run.summary()["reason"])
             return run.stderr
 
+
+class KilledParticipant(Losing):
     def test_impactor_killed(self):
         self.assertIn("SIGKILL", self.lose("impactor", signal.SIGKILL))
 
     def test_structure_killed(self):
         self.assertIn("SIGKILL", self.lose("structure", signal.SIGKILL))
 
+
+class FrozenParticipant(Losing):
     def test_impactor_frozen(self):
         self.lose("impactor", signal.SIGSTOP)
 
     def test_structure_frozen(self):
         self.lose("structure", signal.SIGSTOP)
 
+
+class AbsentParticipant(unittest.TestCase):
     def test_never_connected(self):
         with Run("--external", "impactor", "--connect-deadline", "1") as run:
             run.family = until(lambda: descendants(run.process.pid), "a structure")

@@ -1,0 +1,152 @@
+/// The recorder, the summary and the rules about a failed run, with reports made by hand.
+#include "orchestrator/recorder.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+#include "orchestrator/summary.hpp"
+#include "temporary_directory.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double force = -4.0;  // N on the only segment, along x2
+
+scene::Scene scene_of_one_segment() {
+  scene::Scene out;
+  out.set_depth(0.001);
+  out.mutable_time()->mutable_end()->set_seconds(0.4);
+  scene::Slug& slug = *out.mutable_impactor()->mutable_slug();
+  slug.set_half_width(0.5);
+  slug.set_height(1.0);
+  slug.set_relative_density(0.2);
+  slug.set_speed(2.0);
+  slug.mutable_particle()->set_density(1000.0);
+  out.mutable_structure()->set_half_span(1.0);
+  out.mutable_structure()->set_extent(scene::Structure::EXTENT_FULL);
+  scene::Layer& layer = *out.mutable_structure()->add_layers();
+  layer.set_thickness(0.1);
+  layer.set_density(1000.0);
+  layer.set_yield_strength(1e9);
+  out.mutable_guards()->set_energy_drift(0.03);
+  out.mutable_guards()->set_momentum_error(1e-9);
+  out.mutable_guards()->set_overlap(0.5);
+  out.mutable_guards()->set_element_quality(0.01);
+  return out;
+}
+
+class RecorderTest : public ::testing::Test {
+ protected:
+  RecorderTest() {
+    plan_.window = 0.01;
+    plan_.windows = 40;
+    plan_.report_every = 10;
+    plan_.profile_every = 20;
+    for (const double x : {-1.0, 0.0, 1.0, 0.0}) surface_.add_position(x);
+    surface_.add_segment(0);
+    surface_.add_segment(1);
+    directory_.prepare(results::Existing::refuse);
+    file_.emplace(directory_.results(), std::vector<results::Text>{});
+    recorder_.emplace(Recorder::Context{.scene = scene_, .groups = groups_, .plan = plan_, .surface = surface_},
+                      directory_, *file_, nullptr);
+  }
+
+  void window(std::uint64_t n) {
+    wire::Forces forces;
+    forces.set_window(n);
+    const double impulse = force * plan_.window * (n == 0 ? 0.5 : 1.0);
+    for (int node = 0; node < 2; ++node) {
+      forces.add_impulse(0.0);
+      forces.add_impulse(0.5 * impulse);
+    }
+    recorder_->forces(forces);
+    if (n % plan_.report_every == 0) {
+      recorder_->report(wire::STRUCTURE, report(n, 0.0, 1.0));
+      recorder_->report(wire::IMPACTOR, report(n, -10.0, -1.0));
+    }
+  }
+
+  // Momentum p0 plus (or minus) all of the impulse, everything else constant.
+  [[nodiscard]] wire::Report report(std::uint64_t n, double p0, double sign) const {
+    const double received = sign * force * plan_.window * static_cast<double>(n);
+    wire::Report out;
+    out.set_window(n);
+    for (const double value : {0.0, p0 + received}) out.mutable_momentum()->add_linear(value);
+    for (const double value : {0.0, received}) out.mutable_momentum()->add_interface_impulse(value);
+    out.mutable_energy()->set_kinetic(n == 30 ? broken_energy_ : 50.0);
+    auto* peak = out.add_observable();
+    peak->set_name("peak_deflection");
+    peak->set_unit("m");
+    peak->set_value(0.25);
+    return out;
+  }
+
+  scene::Scene scene_ = scene_of_one_segment();
+  scene::Groups groups_ = scene::groups(scene_);
+  StepPlan plan_;
+  wire::Surface surface_;
+  grainstep::testing::TemporaryDirectory scratch_;
+  results::RunDirectory directory_{scratch_.path() / "run"};
+  std::optional<results::ResultsFile> file_;
+  std::optional<Recorder> recorder_;
+  double broken_energy_ = 50.0;
+};
+
+TEST_F(RecorderTest, AConstantForceIsAConstantPressureInRowsAndProfiles) {
+  for (std::uint64_t n = 0; n <= plan_.windows; ++n) window(n);
+  recorder_->finish();
+  const auto file = results::h5::File::read(directory_.results());
+  const double pressure = 4.0 / (2 * 0.5 * 0.001);  // over the slug's width
+  const auto mean = file.read_doubles("/series/mean_pressure");
+  ASSERT_EQ(mean.size(), 5U);
+  EXPECT_EQ(mean[0], 0.0);
+  for (std::size_t i = 1; i < mean.size(); ++i) EXPECT_NEAR(mean[i] / pressure, 1.0, 1e-12);
+  for (const double p : file.read_doubles("/profiles/pressure")) {
+    EXPECT_NEAR(p / (4.0 / (2.0 * 0.001)), 1.0, 1e-12);  // over the segment's length of 2 m
+  }
+  EXPECT_NEAR(recorder_->findings().transmitted / (pressure * 0.4), 1.0, 1e-12);
+  EXPECT_LT(recorder_->findings().momentum_error, 1e-14);
+}
+
+TEST_F(RecorderTest, TheSummaryScalesWhatWasFound) {
+  for (std::uint64_t n = 0; n <= plan_.windows; ++n) window(n);
+  const auto s = summary({.status = "done",
+                          .reason = "",
+                          .scene = scene_,
+                          .groups = groups_,
+                          .plan = plan_,
+                          .findings = recorder_->findings(),
+                          .impactor = {},
+                          .structure = {},
+                          .impactor_timing = {},
+                          .structure_timing = {}});
+  const double pressure = 4000.0;
+  EXPECT_NEAR(s["early_pressure"].get<double>(), pressure / (200.0 * 2.0 * 2.0), 1e-9);
+  EXPECT_NEAR(s["transmitted_impulse"].get<double>(), pressure * 0.4 / (200.0 * 1.0 * 2.0), 1e-9);
+  EXPECT_NEAR(s["peak_deflection"].get<double>(), 0.25, 1e-15);
+  EXPECT_TRUE(s["peak_core_compression"].is_null());
+}
+
+TEST_F(RecorderTest, AShortRunHasNoEarlyPressure) {
+  for (std::uint64_t n = 0; n <= 10; ++n) window(n);  // t_hat = 0.2
+  EXPECT_FALSE(recorder_->findings().early_impulse);
+}
+
+TEST_F(RecorderTest, ABrokenLimitEndsTheRunAfterItsRowIsKept) {
+  broken_energy_ = 60.0;
+  std::string text;
+  try {
+    for (std::uint64_t n = 0; n <= plan_.windows; ++n) window(n);
+  } catch (const NumericalError& error) {
+    text = error.what();
+  }
+  EXPECT_THAT(text, HasSubstr("at window 30 of 40"));
+  EXPECT_THAT(text, HasSubstr("guards.energy_drift: found 0.2, allowed 0.03"));
+  recorder_->finish();
+  EXPECT_EQ(results::h5::File::read(directory_.results()).read_doubles("/series/time").size(), 4U);
+}
+
+}  // namespace
+}  // namespace grainstep::orchestrator
