@@ -1,5 +1,8 @@
-/// @file What the contacts between particles store and dissipate. LAMMPS's pair style does not tell, so its own
-/// half neighbour list is swept with its own single(), on the steps where a sample is wanted.
+/// @file What the contacts between particles store and dissipate. LAMMPS's pair style does not tell, so its own half
+/// neighbour list is swept with its own single(), on the steps where a sample is wanted.
+///
+/// Order of calls, after the pair forces were summed up and while velocities stand at t(n-1/2): synchronise(); pass the
+/// values of particles on to their ghosts; sweep().
 #pragma once
 
 #include "dem-service/lammps_fmt.hpp"
@@ -25,34 +28,39 @@ struct PairSample {
   double largest_overlap = 0.0;    ///< over the mean diameter
 };
 
+/// Every stride-th particle of the list, from `offset` on: its contacts count `stride` times.
+struct SweepPart {
+  int stride = 1;
+  int offset = 0;
+};
+
 class PairSampler {
  public:
-  /// Per particle: dashpot force, tangential force, torque.
-  static constexpr int values_per_particle = 9;
+  /// Per particle: velocity and spin at t(n).
+  static constexpr int values_per_particle = 6;
 
-  struct Stiffness {
-    double normal = 0.0;      ///< N/m
-    double tangential = 0.0;  ///< N/m
+  struct Law {
+    double normal_stiffness = 0.0;      ///< N/m
+    double tangential_stiffness = 0.0;  ///< N/m; 0: no tangential force
+    double largest_diameter = 0.0;      ///< m
+    double dt = 0.0;                    ///< s
   };
-  explicit PairSampler(const Stiffness& stiffness) : stiffness_(stiffness) {}
+  explicit PairSampler(const Law& law) : law_(law) {}
 
-  /// After the pair forces were computed, velocities at t(n-1/2): dashpot and tangential forces of every particle,
-  /// ghosts included, and what is stored.
-  void sweep(LAMMPS_NS::Pair& pair, const LAMMPS_NS::Atom& atom);
+  /// What the velocities will be at t(n): half a step on with the forces that are complete by now.
+  void synchronise(const LAMMPS_NS::Atom& atom);
 
-  /// The values of particle i; a ghost's are to be added to its owner's.
   [[nodiscard]] double* values(int i) { return &values_[static_cast<std::size_t>(values_per_particle * i)]; }
 
-  /// With velocities at t(n): the exact power of the step. Sums over this rank's particles.
-  [[nodiscard]] PairSample finish(const ParticleArrays& particles);
+  /// This rank's contacts. Their power is exact: force of the step times velocities at t(n).
+  [[nodiscard]] PairSample sweep(LAMMPS_NS::Pair& pair, const LAMMPS_NS::Atom& atom, const SweepPart& part);
 
  private:
   void touch(LAMMPS_NS::Pair& pair, const LAMMPS_NS::Atom& atom, int i, int j, const surface::Vec3& apart,
-             double squared);
+             double squared, PairSample& sample);
 
-  Stiffness stiffness_;
+  Law law_;
   std::vector<double> values_;
-  PairSample sample_;
 };
 
 }  // namespace grainstep::dem

@@ -23,7 +23,8 @@ ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetr
   preview.stable_step = model.stable_step;
   preview.preferred_step = model.preferred_step;
   preview.memory_bytes = bytes_of_program + bytes_per_particle * model.particles;
-  const double samples_per_step = 1.0 / sampling_interval(model, guards);
+  const Sampling sampling = sampling_of(model, guards);
+  const double samples_per_step = 1.0 / (sampling.interval * sampling.stride);
   preview.seconds_per_particle_step = seconds_of_dynamics + samples_per_step * seconds_of_sample;
   return preview;
 }

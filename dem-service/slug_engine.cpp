@@ -131,7 +131,7 @@ void SlugEngine::run(const wire::Start& start, participant::ImpactorLink* link) 
   const ContactLaw pair = calibrated_pair_law(model_, dt);
   set_laws(pair, dt, skin);
 
-  const StepSettings settings{dt, skin / 2.0, sampling_interval(model_, setup_.guards())};
+  const StepSettings settings{dt, skin / 2.0, sampling_of(model_, setup_.guards())};
   MovingSurface surface(setup_.surface());
   RankExchange exchange(communicator_, link, surface.node_count());
   StepDriver driver(model_, start, settings, std::move(surface), exchange);
@@ -139,7 +139,8 @@ void SlugEngine::run(const wire::Start& start, participant::ImpactorLink* link) 
   session_.command("fix surface all grainstep/surface");
   const bool sticks = pair.friction > 0.0;
   SurfaceFix::find(session_.lammps(), "surface")
-      .connect(driver, exchange, {pair.normal_stiffness, sticks ? pair.tangential_stiffness : 0.0});
+      .connect(driver, exchange,
+               {pair.normal_stiffness, sticks ? pair.tangential_stiffness : 0.0, model_.diameter, dt});
   session_.command(text_of("run %llu post no", static_cast<unsigned long long>(steps)));
   exchange.finish();
 }

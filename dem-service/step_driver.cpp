@@ -79,8 +79,12 @@ participant::Due StepDriver::due_after(std::uint64_t step) const {
   return participant::due_at(start_, step / start_.impactor_steps());
 }
 
-bool StepDriver::samples_at(std::uint64_t step) const {
-  return !ended_ && (step % settings_.energy_sampling == 0 || due_after(step).report);
+std::optional<SweepPart> StepDriver::sample_at(std::uint64_t step) const {
+  if (ended_) return std::nullopt;
+  if (due_after(step).report) return SweepPart{};
+  const auto [interval, stride] = settings_.sampling;
+  if (step % interval != 0) return std::nullopt;
+  return SweepPart{static_cast<int>(stride), static_cast<int>(step / interval % stride)};
 }
 
 void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles,

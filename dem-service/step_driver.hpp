@@ -15,7 +15,7 @@ namespace grainstep::dem {
 struct StepSettings {
   double dt = 0.0;      ///< s
   double margin = 0.0;  ///< m a particle may move between two rebuilds
-  std::uint32_t energy_sampling = 1;
+  Sampling sampling;
 };
 
 class StepDriver {
@@ -28,10 +28,11 @@ class StepDriver {
   /// Contact with surface and mirror at this step; at a window's end the impulse is on its way before this returns.
   void before_pair_forces(std::uint64_t step, const ParticleArrays& particles);
 
-  /// Whether this step's contacts between particles are to be sampled.
-  [[nodiscard]] bool samples_at(std::uint64_t step) const;
+  /// Which of this step's contacts between particles are to be sampled, if any: all of them where a report needs what
+  /// they store, else a part that wanders through the list.
+  [[nodiscard]] std::optional<SweepPart> sample_at(std::uint64_t step) const;
 
-  /// Velocities at t(n). `sample`: where samples_at(step).
+  /// Velocities at t(n). `sample`: what sample_at(step) asked for.
   void end_of_step(std::uint64_t step, const ParticleArrays& particles, const std::optional<PairSample>& sample);
 
   /// No further step is wanted.

@@ -8,6 +8,8 @@
 #include <lammps/timer.h>
 #include <lammps/update.h>
 
+#include <algorithm>
+
 #include "base/assert.hpp"
 
 namespace grainstep::dem {
@@ -36,17 +38,17 @@ SurfaceFix::SurfaceFix(LAMMPS_NS::LAMMPS* lammps, int argument_count, char** arg
   nevery = 1;
   create_attribute = 1;
   maxexchange = spring_values;
-  comm_reverse = PairSampler::values_per_particle;
+  comm_forward = PairSampler::values_per_particle;
   SurfaceFix::grow_arrays(atom->nmax);
   atom->add_callback(LAMMPS_NS::Atom::GROW);
 }
 
 SurfaceFix::~SurfaceFix() { atom->delete_callback(id, LAMMPS_NS::Atom::GROW); }
 
-void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange, const PairSampler::Stiffness& pair_stiffness) {
+void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange, const PairSampler::Law& pair_law) {
   driver_ = &driver;
   exchange_ = &exchange;
-  sampler_.emplace(pair_stiffness);
+  sampler_.emplace(pair_law);
 }
 
 int SurfaceFix::setmask() {
@@ -89,9 +91,12 @@ void SurfaceFix::pre_force(int /*flags*/) {
 }
 
 void SurfaceFix::post_force(int /*flags*/) {
-  if (!driver_->samples_at(step())) return;
-  sampler_->sweep(*force->pair, *atom);
-  comm->reverse_comm_fix(this);
+  sample_.reset();
+  const std::optional<SweepPart> part = driver_->sample_at(step());
+  if (!part) return;
+  sampler_->synchronise(*atom);
+  comm->forward_comm_fix(this);
+  sample_ = sampler_->sweep(*force->pair, *atom, *part);
 }
 
 void SurfaceFix::setup(int flags) {
@@ -100,11 +105,7 @@ void SurfaceFix::setup(int flags) {
 }
 
 void SurfaceFix::end_of_step() {
-  guarded([&] {
-    std::optional<PairSample> sample;
-    if (driver_->samples_at(step())) sample = sampler_->finish(particles());
-    driver_->end_of_step(step(), particles(), sample);
-  });
+  guarded([&] { driver_->end_of_step(step(), particles(), sample_); });
 }
 
 void SurfaceFix::grow_arrays(int capacity) { springs_.resize(static_cast<std::size_t>(capacity)); }
@@ -123,16 +124,14 @@ int SurfaceFix::unpack_exchange(int i, double* buffer) {
   return spring_values;
 }
 
-int SurfaceFix::pack_reverse_comm(int count, int first, double* buffer) {
-  std::copy_n(sampler_->values(first), count * PairSampler::values_per_particle, buffer);
+int SurfaceFix::pack_forward_comm(int count, int* list, double* buffer, int /*periodic*/, int* /*shift*/) {
+  for (int k = 0; k < count; ++k)
+    buffer = std::copy_n(sampler_->values(list[k]), PairSampler::values_per_particle, buffer);
   return count * PairSampler::values_per_particle;
 }
 
-void SurfaceFix::unpack_reverse_comm(int count, int* list, double* buffer) {
-  for (int k = 0; k < count; ++k) {
-    double* values = sampler_->values(list[k]);
-    for (int c = 0; c < PairSampler::values_per_particle; ++c) values[c] += *buffer++;
-  }
+void SurfaceFix::unpack_forward_comm(int count, int first, double* buffer) {
+  std::copy_n(buffer, count * PairSampler::values_per_particle, sampler_->values(first));
 }
 
 double SurfaceFix::memory_usage() { return static_cast<double>(springs_.capacity() * sizeof(surface::Vec3)); }

@@ -32,7 +32,7 @@ class SurfaceFix : public LAMMPS_NS::Fix {
   SurfaceFix& operator=(SurfaceFix&&) = delete;
 
   /// Both outlive the run.
-  void connect(StepDriver& driver, RankExchange& exchange, const PairSampler::Stiffness& pair_stiffness);
+  void connect(StepDriver& driver, RankExchange& exchange, const PairSampler::Law& pair_law);
 
   int setmask() override;
 
@@ -49,8 +49,8 @@ class SurfaceFix : public LAMMPS_NS::Fix {
   void set_arrays(int i) override;
   int pack_exchange(int i, double* buffer) override;
   int unpack_exchange(int i, double* buffer) override;
-  int pack_reverse_comm(int count, int first, double* buffer) override;
-  void unpack_reverse_comm(int count, int* list, double* buffer) override;
+  int pack_forward_comm(int count, int* list, double* buffer, int periodic, int* shift) override;
+  void unpack_forward_comm(int count, int first, double* buffer) override;
   double memory_usage() override;
 
  private:
@@ -63,6 +63,7 @@ class SurfaceFix : public LAMMPS_NS::Fix {
   StepDriver* driver_ = nullptr;
   RankExchange* exchange_ = nullptr;
   std::optional<PairSampler> sampler_;
+  std::optional<PairSample> sample_;  ///< of the step in progress
   std::vector<surface::Vec3> springs_;
 };
 

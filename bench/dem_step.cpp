@@ -1,0 +1,156 @@
+/// @file What the coupling costs on the particles' side: the slug with our surface contact, mirror plane and ledger,
+/// against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that both see the same machine.
+///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions] [energy sampling]
+/// Times are CPU seconds of this process; the median of the repetitions counts.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "../tests/unit/dem-service/engine_rig.hpp"
+#include "dem-service/lammps_session.hpp"
+#include "dem-service/packing.hpp"
+
+#define LAMMPS_LIB_MPI
+#include <lammps/library.h>
+
+namespace {
+
+using namespace grainstep;
+using namespace grainstep::dem;
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Job {
+  wire::Setup setup;
+  double dt = 0.0;
+  std::uint64_t warm_up = 0;
+  std::uint64_t steps = 0;
+};
+
+/// Reads the clock when the warm-up is over.
+class TimedLink final : public participant::ImpactorLink {
+ public:
+  TimedLink(const Job& job, rig::ScriptedLink& script) : job_(job), script_(script) {}
+  const wire::Kinematics* surface(std::uint64_t window) override {
+    if (window == job_.warm_up) began_ = cpu_seconds();
+    return script_.surface(window);
+  }
+  participant::Due due(std::uint64_t window) const override { return script_.due(window); }
+  void send(const wire::Forces&) override {}
+  void send(wire::Report&) override {}
+  void send(const wire::Snapshot&) override {}
+  double began() const { return began_; }
+
+ private:
+  const Job& job_;
+  rig::ScriptedLink& script_;
+  double began_ = 0.0;
+};
+
+double coupled(const Job& job) {
+  wire::Start start = rig::start_of(job.dt, job.warm_up + job.steps);
+  start.set_report_every(100);
+  start.set_snapshot_every(0);
+  rig::ScriptedLink script(job.setup, start, rig::at_rest());
+  TimedLink link(job, script);
+  SlugEngine engine(rig::alone(), job.setup);
+  engine.run(start, &link);
+  return (cpu_seconds() - link.began()) / static_cast<double>(job.steps);
+}
+
+double plain(const Job& job) {
+  const SlugModel model = rig::model_of(job.setup);
+  const ContactLaw pair = calibrated_pair_law(model, job.dt);
+  const ContactLaw wall = calibrated_surface_law(model, job.dt);
+  const double radius = model.diameter / 2.0;
+  auto centres = pack_at_random({{{radius, radius}}, {{model.half_width - radius, model.height - radius}}},
+                                model.particles, model.diameter, model.seed);
+  const surface::Polyline ground({{{-1.0, 0.0}}, {{1.0, 0.0}}}, {{0, 1}});
+  rest_on(ground, model.diameter, centres);
+  std::vector<int> id;
+  std::vector<int> type(centres.size(), 1);
+  std::vector<double> x;
+  std::vector<double> v;
+  for (const auto& centre : centres) {
+    id.push_back(static_cast<int>(id.size()) + 1);
+    x.insert(x.end(), {centre[0], centre[1], 0.0});
+    v.insert(v.end(), {0.0, -model.speed, 0.0});
+  }
+  LammpsSession session(MPI_COMM_SELF, {});
+  const auto say = [&](const char* format, auto... values) {
+    char text[500];
+    std::snprintf(text, sizeof text, format, values...);
+    session.command(text);
+  };
+  for (const char* line :
+       {"units si", "atom_style sphere", "dimension 2", "newton on", "boundary s s p", "comm_modify vel yes"}) {
+    session.command(line);
+  }
+  say("region slug block 0 %g -0.01 %g %g %g units box", model.half_width, model.height, -radius, radius);
+  say("create_box 1 slug");
+  lammps_create_atoms(session.handle(), static_cast<int>(id.size()), id.data(), type.data(), x.data(), v.data(),
+                      nullptr, 0);
+  say("set type 1 diameter %.17g", model.diameter);
+  say("set type 1 density/disc %.17g", model.mass / (M_PI * radius * radius));
+  say("pair_style gran/hooke/history %.17g %.17g %.17g 0 %.17g 0", pair.normal_stiffness, pair.tangential_stiffness,
+      pair.damping_rate, pair.friction);
+  say("pair_coeff * *");
+  say("neighbor %.17g bin", model.diameter);
+  say("neigh_modify delay 0 every 1 check yes binsize %.17g", 2.0 * model.diameter);
+  say("timestep %.17g", job.dt);
+  say("fix motion all nve/sphere disc");
+  say("fix ground all wall/gran hooke/history %.17g %.17g %.17g 0 %.17g 0 yplane 0 NULL", wall.normal_stiffness,
+      wall.tangential_stiffness, wall.damping_rate, wall.friction);
+  say("fix mirror all wall/gran hooke/history %.17g 0 %.17g 0 0 0 xplane 0 NULL", 2.0 * pair.normal_stiffness,
+      pair.damping_rate);
+  say("timer loop");
+  say("thermo_modify lost ignore");
+  say("run %d post no", static_cast<int>(job.warm_up));
+  const double began = cpu_seconds();
+  say("run %d post no", static_cast<int>(job.steps));
+  return (cpu_seconds() - began) / static_cast<double>(job.steps);
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto argument = [&](int i, double otherwise) { return argc > i ? std::atof(argv[i]) : otherwise; };
+  Job job;
+  job.setup = rig::reference_setup();
+  job.setup.set_mirror(true);
+  job.setup.mutable_impactor()->mutable_guards()->set_energy_sampling(static_cast<std::uint32_t>(argument(5, 10)));
+  scene::Slug& slug = rig::slug_of(job.setup);
+  slug.set_half_width(0.1);
+  slug.set_height(0.3);
+  slug.mutable_particle()->set_diameter(argument(1, 1.0) * 1e-3);
+  rig::set_flat_surface(job.setup, 0.5, 320);
+  const SlugModel model = rig::model_of(job.setup);
+  job.dt = model.preferred_step;
+  job.warm_up = static_cast<std::uint64_t>(argument(2, 1500));
+  job.steps = static_cast<std::uint64_t>(argument(3, 2000));
+  std::vector<double> with;
+  std::vector<double> without;
+  for (int i = 0; i < static_cast<int>(argument(4, 3)); ++i) {
+    without.push_back(plain(job));
+    with.push_back(coupled(job));
+    std::printf("%2d  plain %8.1f us/step  coupled %8.1f us/step\n", i, 1e6 * without.back(), 1e6 * with.back());
+  }
+  const double per_particle = 1e9 / static_cast<double>(model.particles);
+  std::printf("%llu particles: plain %.0f, coupled %.0f ns per particle and step, ratio %.3f\n",
+              static_cast<unsigned long long>(model.particles), median(without) * per_particle,
+              median(with) * per_particle, median(with) / median(without));
+  return 0;
+}
