@@ -55,7 +55,7 @@ struct Sampling {
 };
 
 /// At most guards.energy_sampling steps apart. Small slugs are sampled more often, since few contacts make a noisy mean
-/// and cost nothing; of large ones every second particle is enough. With an energy_sampling of 1 the ledger is exact.
+/// and cost nothing; of large ones every third particle is enough. With an energy_sampling of 1 the ledger is exact.
 [[nodiscard]] Sampling sampling_of(const SlugModel& model, const scene::Guards& guards);
 
 }  // namespace grainstep::dem

@@ -1,6 +1,8 @@
 // Restitution as the real engine returns it, for pairs and for particles on the structure.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "dem-service/damping.hpp"
 #include "engine_rig.hpp"
 
@@ -13,6 +15,8 @@ struct Case {
   double restitution;
   double steps_per_contact;
 };
+
+void PrintTo(const Case& c, std::ostream* out) { *out << "e=" << c.restitution << "_at_t_e/" << c.steps_per_contact; }
 
 class Restitution : public testing::TestWithParam<Case> {};
 

@@ -1,0 +1,69 @@
+#include "dem-service/preview.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "dem-service/slug_model.hpp"
+#include "engine_rig.hpp"
+
+namespace grainstep::dem {
+namespace {
+
+scene::Impactor impactor() { return rig::reference_setup().impactor().impactor(); }
+
+ImpactorPreview preview_of(const scene::Impactor& what) {
+  scene::Guards guards;
+  guards.set_energy_sampling(10);
+  return preview(what, scene::SYMMETRY_PLANE_STRAIN, 1e-3, true, guards);
+}
+
+TEST(Preview, ReferenceSlugOfThePaper) {
+  scene::Impactor paper = impactor();
+  paper.mutable_slug()->mutable_particle()->set_diameter(200e-6);
+  paper.mutable_slug()->set_half_width(0.1);
+  paper.mutable_slug()->set_height(0.3);
+  const ImpactorPreview found = preview_of(paper);
+  EXPECT_EQ(found.particles, 190986U);  // 0.2 a H / (pi D^2/4)
+  EXPECT_NEAR(found.particle_mass, 8.482e-8, 5e-12);
+  EXPECT_NEAR(found.contact_time, 2.410e-7, 5e-11);
+  EXPECT_NEAR(found.preferred_step, 2.41e-8, 5e-11);
+  EXPECT_GT(found.stable_step, found.preferred_step);
+  EXPECT_GT(found.memory_bytes, 100'000'000U);
+  EXPECT_GT(found.seconds_per_particle_step, 1e-8);
+}
+
+void expect_refused(const scene::Impactor& what, const std::string& key) {
+  try {
+    (void)preview_of(what);
+    FAIL() << key;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(key));
+  }
+}
+
+TEST(Preview, RefusesWhatCannotBeComputed) {
+  scene::Impactor dense = impactor();
+  dense.mutable_slug()->set_relative_density(0.6);
+  expect_refused(dense, "relative_density");
+  scene::Impactor thin = impactor();
+  thin.mutable_slug()->set_half_width(1e-4);
+  expect_refused(thin, "half_width");
+  scene::Impactor other = impactor();
+  other.set_type(scene::Impactor::TYPE_EXTERNAL);
+  expect_refused(other, "impactor.type");
+}
+
+TEST(StableStep, CoversTheStiffestModeOfAPackedLattice) {
+  // Elastic and frictionless: omega^2 = 6 Kn/m, and the limit of central differences is 2/omega.
+  const double mass = 2.0;
+  const Collision pair{50.0, mass / 2.0, 1.0, false};
+  EXPECT_DOUBLE_EQ(largest_stable_step(pair, 0.0), 2.0 / std::sqrt(6.0 * 50.0 / mass));
+  Collision damped = pair;
+  damped.restitution = 0.5;
+  EXPECT_LT(largest_stable_step(damped, 0.0), largest_stable_step(pair, 0.0));
+  EXPECT_LT(largest_stable_step(pair, 10.0), largest_stable_step(pair, 0.0));
+}
+
+}  // namespace
+}  // namespace grainstep::dem
