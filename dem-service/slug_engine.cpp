@@ -114,6 +114,9 @@ void SlugEngine::set_laws(const ContactLaw& pair, double dt, double skin) {
   session_.command(text_of("neigh_modify delay 0 every 1 check yes binsize %.17g", model_.diameter + skin));
   session_.command(text_of("timestep %.17g", dt));
   session_.command("fix motion all nve/sphere disc");
+  int ranks = 1;
+  MPI_Comm_size(communicator_, &ranks);
+  if (ranks > 1) session_.command("fix shares all balance 500 1.1 shift x 10 1.05");
   session_.command("timer loop");
   session_.command("thermo_modify lost ignore");  // we count them ourselves and say what it means
 }

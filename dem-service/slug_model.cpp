@@ -92,7 +92,7 @@ double largest_stable_step(const Collision& pair, double tangential_stiffness) {
 }
 
 Sampling sampling_of(const SlugModel& model, const scene::Guards& guards) {
-  constexpr std::uint64_t particles_per_step = 700;
+  constexpr std::uint64_t particles_per_step = 200;
   constexpr std::uint64_t many = 4000;
   const std::uint64_t wanted = std::max<std::uint64_t>(1, guards.energy_sampling());
   const std::uint64_t interval = std::clamp<std::uint64_t>(model.particles / particles_per_step, 1, wanted);

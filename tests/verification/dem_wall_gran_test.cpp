@@ -20,6 +20,7 @@ constexpr int steps = 1000;
 wire::Setup flat() {
   wire::Setup setup = reference_setup();
   slug_of(setup).mutable_surface_contact()->set_lever_arm(scene::SurfaceContact::LEVER_ARM_RADIUS);
+  slug_of(setup).set_relative_density(0.05);
   set_flat_surface(setup, 0.2, 60);
   return setup;
 }
@@ -82,8 +83,11 @@ std::vector<Vec2> plain_lammps(const wire::Setup& setup, const wire::Snapshot& p
   return found;
 }
 
-// Both add up the same forces in another order: they differ by round-off, which collisions multiply.
-constexpr double agreement = 1e-6;
+// Both add up the same forces in another order. They differ by round-off, which collisions multiply: by ten in about
+// every eighty steps at a solid fraction of 0.2 (3e-6 after 1000 steps), far less at the 0.05 of this test (1e-8).
+constexpr double round_off = 1e-13;
+constexpr double round_off_after_many_collisions = 1e-6;
+constexpr std::size_t few_collisions = 250;
 
 TEST(DemWallGran, ImpulseOfEveryStepAgrees) {
   const wire::Setup setup = flat();
@@ -100,7 +104,9 @@ TEST(DemWallGran, ImpulseOfEveryStepAgrees) {
     }
     const double half = n == 0 ? 1.0 : 0.5;  // at n = 0 only half a step was handed over
     const Vec2 on_slug = -1.0 * (before + half * now);
-    EXPECT_NEAR(norm(theirs[n] - theirs[0] - on_slug) / scale, 0.0, agreement) << n;
+    EXPECT_NEAR(norm(theirs[n] - theirs[0] - on_slug) / scale, 0.0,
+                n <= few_collisions ? round_off : round_off_after_many_collisions)
+        << n;
     largest = std::max(largest, norm(on_slug) / scale);
     before += now;
   }
