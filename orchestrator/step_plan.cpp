@@ -43,8 +43,10 @@ double impactor_step(const scene::Step& step, SideSteps side) {
   return seconds;
 }
 
-void choose_structure_steps(StepPlan& plan, double preferred) {
-  const double ratio = preferred / plan.impactor_step;
+// A window is no longer than a contact, because the surface moves linearly in it; that also bounds the window of a
+// target that has no stable step of its own.
+void choose_structure_steps(StepPlan& plan, double preferred, double contact_time) {
+  const double ratio = std::min(preferred, contact_time) / plan.impactor_step;
   plan.impactor_steps = static_cast<std::uint32_t>(std::max(1.0, std::floor(ratio * (1.0 + round_off))));
   plan.structure_steps =
       static_cast<std::uint32_t>(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
@@ -95,7 +97,7 @@ StepPlan plan_steps(const scene::Scene& scene, double end, SideSteps impactor, S
     require_stable("steps.structure", asked.ratio() * plan.impactor_step, structure.stable);
     honour_structure_ratio(plan, asked.ratio());
   } else {
-    choose_structure_steps(plan, structure.preferred);
+    choose_structure_steps(plan, structure.preferred, steps_per_contact * impactor.preferred);
   }
   plan.window = plan.impactor_steps * plan.impactor_step;
   plan.structure_step = plan.window / plan.structure_steps;

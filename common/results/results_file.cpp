@@ -11,8 +11,8 @@ namespace grainstep::results {
 namespace {
 
 // Room beside the raw values: new chunks are allocated whole (64 KiB a dataset), plus the library's own bookkeeping.
-constexpr std::size_t room_per_dataset = 80 * 1024;
-constexpr std::size_t room_for_library = 256 * 1024;
+constexpr std::size_t room_per_dataset = std::size_t{80} * 1024;
+constexpr std::size_t room_for_library = std::size_t{256} * 1024;
 
 // The system's own reason, without the exception for errno values that ::posix_fallocate returns.
 void reserve_bytes(const std::filesystem::path& path, std::size_t bytes) {

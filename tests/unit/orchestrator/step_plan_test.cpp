@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "base/error.hpp"
 
 namespace grainstep::orchestrator {
@@ -48,9 +50,16 @@ TEST(StepPlan, AFasterStructureTakesSeveralSteps) {
   EXPECT_DOUBLE_EQ(plan.structure_step, 0.8e-8);
 }
 
+TEST(StepPlan, AWindowIsNoLongerThanAContact) {
+  EXPECT_EQ(with_structure(std::numeric_limits<double>::max()).impactor_steps, 10U);  // a rigid target
+  EXPECT_EQ(with_structure(1e-3).structure_steps, 1U);
+}
+
 TEST(StepPlan, ExactRatiosAreNotLostToRoundOff) {
-  for (unsigned n = 1; n < 200; ++n) {
+  for (unsigned n = 1; n <= 10; ++n) {
     EXPECT_EQ(with_structure(n * 2.4e-8).impactor_steps, n);
+  }
+  for (unsigned n = 1; n < 200; ++n) {
     const StepPlan finer = with_structure(2.4e-8 / n);
     EXPECT_EQ(finer.structure_steps, n);
     EXPECT_EQ(finer.impactor_steps, 1U);
