@@ -3,7 +3,6 @@
 ///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions] [energy sampling]
 /// Times are CPU seconds of this process; the median of the repetitions counts.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -11,11 +10,7 @@
 #include <vector>
 
 #include "../tests/unit/dem-service/engine_rig.hpp"
-#include "dem-service/lammps_session.hpp"
-#include "dem-service/packing.hpp"
-
-#define LAMMPS_LIB_MPI
-#include <lammps/library.h>
+#include "bench/plain_slug.hpp"
 
 namespace {
 
@@ -67,55 +62,10 @@ double coupled(const Job& job) {
 }
 
 double plain(const Job& job) {
-  const SlugModel model = rig::model_of(job.setup);
-  const ContactLaw pair = calibrated_pair_law(model, job.dt);
-  const ContactLaw wall = calibrated_surface_law(model, job.dt);
-  const double radius = model.diameter / 2.0;
-  auto centres = pack_at_random({{{radius, radius}}, {{model.half_width - radius, model.height - radius}}},
-                                model.particles, model.diameter, model.seed);
-  const surface::Polyline ground({{{-1.0, 0.0}}, {{1.0, 0.0}}}, {{0, 1}});
-  rest_on(ground, model.diameter, centres);
-  std::vector<int> id;
-  std::vector<int> type(centres.size(), 1);
-  std::vector<double> x;
-  std::vector<double> v;
-  for (const auto& centre : centres) {
-    id.push_back(static_cast<int>(id.size()) + 1);
-    x.insert(x.end(), {centre[0], centre[1], 0.0});
-    v.insert(v.end(), {0.0, -model.speed, 0.0});
-  }
-  LammpsSession session(MPI_COMM_SELF, {});
-  const auto say = [&](const char* format, auto... values) {
-    char text[500];
-    std::snprintf(text, sizeof text, format, values...);
-    session.command(text);
-  };
-  for (const char* line :
-       {"units si", "atom_style sphere", "dimension 2", "newton on", "boundary s s p", "comm_modify vel yes"}) {
-    session.command(line);
-  }
-  say("region slug block 0 %g -0.01 %g %g %g units box", model.half_width, model.height, -radius, radius);
-  say("create_box 1 slug");
-  lammps_create_atoms(session.handle(), static_cast<int>(id.size()), id.data(), type.data(), x.data(), v.data(),
-                      nullptr, 0);
-  say("set type 1 diameter %.17g", model.diameter);
-  say("set type 1 density/disc %.17g", model.mass / (M_PI * radius * radius));
-  say("pair_style gran/hooke/history %.17g %.17g %.17g 0 %.17g 0", pair.normal_stiffness, pair.tangential_stiffness,
-      pair.damping_rate, pair.friction);
-  say("pair_coeff * *");
-  say("neighbor %.17g bin", model.diameter);
-  say("neigh_modify delay 0 every 1 check yes binsize %.17g", 2.0 * model.diameter);
-  say("timestep %.17g", job.dt);
-  say("fix motion all nve/sphere disc");
-  say("fix ground all wall/gran hooke/history %.17g %.17g %.17g 0 %.17g 0 yplane 0 NULL", wall.normal_stiffness,
-      wall.tangential_stiffness, wall.damping_rate, wall.friction);
-  say("fix mirror all wall/gran hooke/history %.17g 0 %.17g 0 0 0 xplane 0 NULL", 2.0 * pair.normal_stiffness,
-      pair.damping_rate);
-  say("timer loop");
-  say("thermo_modify lost ignore");
-  say("run %d post no", static_cast<int>(job.warm_up));
+  bench::PlainSlug slug(rig::model_of(job.setup), job.dt);
+  slug.run(job.warm_up);
   const double began = cpu_seconds();
-  say("run %d post no", static_cast<int>(job.steps));
+  slug.run(job.steps);
   return (cpu_seconds() - began) / static_cast<double>(job.steps);
 }
 
