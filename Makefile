@@ -46,7 +46,7 @@ sanitize: packages
 	@ctest --preset sanitize -j $(JOBS)
 
 bench: build
-	@$(PYTHON) bench/run --build $(BUILD)
+	@$(PYTHON) bench/run --build $(BUILD) $(BENCH_OPTIONS)
 
 docs: build
 	@$(BUILD)/bin/grainstep-docs docs/user
