@@ -77,10 +77,11 @@ Deformable::Received Deformable::kick(const wire::Forces& forces, double interna
   const auto work = [&](std::size_t k) {
     const double* impulse = forces.impulse().data() + 2 * k;
     const std::size_t i = surface_[k];
-    return 0.5 * share * (impulse[0] * body_.corners.u[i] + impulse[1] * body_.corners.v[i]);
+    return share * (impulse[0] * body_.corners.u[i] + impulse[1] * body_.corners.v[i]);
   };
+  double work_after = 0.0;
   for (std::size_t k = 0; k < surface_.size(); ++k) {
-    gained.work += work(k);
+    gained.work_before += work(k);
     const std::size_t i = surface_[k];
     const Vec2 impulse =
         share * Vec2{forces.impulse(static_cast<int>(2 * k)), forces.impulse(static_cast<int>(2 * k + 1))};
@@ -90,7 +91,8 @@ Deformable::Received Deformable::kick(const wire::Forces& forces, double interna
   }
   body_.kick(internal_weight);
   gained.supports = body_.hold_supports();
-  for (std::size_t k = 0; k < surface_.size(); ++k) gained.work += work(k);
+  for (std::size_t k = 0; k < surface_.size(); ++k) work_after += work(k);
+  gained.work = 0.5 * (gained.work_before + work_after);
   return gained;
 }
 
@@ -106,9 +108,10 @@ void Deformable::keep(participant::Due due, const Velocities& before, double wei
   Received until = received_;
   until.interface = until.interface + weight * gained.interface;
   until.supports = until.supports + weight * gained.supports;
-  // The impulse j does the work j . (V(n-1/2) + V(n+1/2))/2 over the whole step, w j . (V(n-1/2) + V(n))/2 up to t(n).
-  // The first of these is known; the second differs by terms of the order of the step squared, as V(n) does itself.
-  until.work += weight * gained.work;
+  // Over the whole step the impulse j does the work j . (V(n-1/2) + V(n+1/2))/2. Up to t(n) the surface has moved with
+  // V(n-1/2) only: w j . V(n-1/2), which is what the impactor, with the same steps, has counted as well. Kinetic energy
+  // would have V(n)/2 + V(n-1/2)/2 here: a difference of the order of the step squared that returns to zero with j.
+  until.work += weight * gained.work_before;
   fill_report(at, until);
 }
 

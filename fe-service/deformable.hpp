@@ -47,6 +47,7 @@ class Deformable final : public WindowedStructure {
   struct Received {
     Vec2 interface { 0.0, 0.0 }, supports{0.0, 0.0};  ///< N s
     double work = 0.0;                                ///< J, through the surface
+    double work_before = 0.0;                         ///< J, the same with the velocities before the step
   };
 
   [[nodiscard]] Received kick(const wire::Forces& forces, double internal_weight);
