@@ -27,7 +27,7 @@ void put_observables(Row& row, const char* side, const wire::Report& report) {
   }
 }
 
-void put_energy(Row& row, const std::string& side, const wire::Energy& e) {
+void put_energy(Row& row, const std::string& side, const wire::Energy& e, double error) {
   const std::string group = "/ledger/" + side + "/energy/";
   put(row, group + "kinetic", "J", "kinetic energy, translation and rotation", e.kinetic());
   put(row, group + "elastic", "J", "stored elastic energy", e.elastic());
@@ -37,6 +37,7 @@ void put_energy(Row& row, const std::string& side, const wire::Energy& e) {
   put(row, group + "viscous", "J", "other dissipation since the start", e.viscous());
   put(row, group + "support_work", "J", "work of the supports on this side since the start", e.support_work());
   put(row, group + "interface_work", "J", "work on this side through the surface since the start", e.interface_work());
+  put(row, group + "error", "", "what of this side's energy is not explained, over the initial energy", error);
 }
 
 void put_momentum(Row& row, const std::string& side, const ledger::Closure& closure) {
@@ -79,11 +80,13 @@ Row ledger_row(const RowData& data) {
              b.in_flight);
   put(row, "/ledger/energy", "J", "kinetic, stored and dissipated energy of both sides less the supports' work",
       b.energy);
-  put(row, "/ledger/energy_drift", "", "change of that energy over its initial value", b.energy_drift);
+  put(row, "/ledger/energy_drift", "",
+      "largest of the energies that are not explained: of the whole, of each side, at the interface", b.energy_drift);
+  put(row, "/ledger/energy_change", "", "change of that energy over its initial value", b.energy_change);
   put(row, "/ledger/interface_mismatch", "J",
       "work on the surface as the impactor sees it, less as the structure sees it", b.interface_mismatch);
-  put_energy(row, "impactor", data.impactor.energy());
-  put_energy(row, "structure", data.structure.energy());
+  put_energy(row, "impactor", data.impactor.energy(), b.impactor_energy);
+  put_energy(row, "structure", data.structure.energy(), b.structure_energy);
   put_momentum(row, "impactor", b.impactor);
   put_momentum(row, "structure", b.structure);
   return row;

@@ -30,9 +30,17 @@ double energy_of(const wire::Energy& e) {
   return e.kinetic() + e.elastic() + e.plastic() + e.damping() + e.friction() + e.viscous() - e.support_work();
 }
 
+namespace {
+
+double own_energy(const wire::Energy& e) { return energy_of(e) - e.interface_work(); }
+
+}  // namespace
+
 Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps)
     : impactor_start_(impactor.momentum()),
       structure_start_(structure.momentum()),
+      impactor_start_energy_(own_energy(impactor.energy())),
+      structure_start_energy_(own_energy(structure.energy())),
       equal_steps_(equal_steps),
       initial_energy_(energy_of(impactor.energy()) + energy_of(structure.energy())),
       momentum_scale_(length(plus(vector_of(impactor_start_.linear()), vector_of(structure_start_.linear())))) {}
@@ -79,13 +87,26 @@ Balance Ledger::close(const wire::Report& impactor, const wire::Report& structur
   const double whole = relative(length(plus(minus(change, supports), out.in_flight)));
   out.interface_momentum = interface_excess(out, handed_over);
   out.momentum_error = std::max({whole, out.interface_momentum, out.impactor.error, out.structure.error});
+  close_energy(impactor, structure, out);
+  return out;
+}
+
+// The whole's change is the sum of the sides' errors and the mismatch, each of its own sign: the contacts' integration
+// loses what unequal steps at the interface may give back. So each has to be small by itself.
+void Ledger::close_energy(const wire::Report& impactor, const wire::Report& structure, Balance& out) const {
+  const double scale = initial_energy_ > 0.0 ? initial_energy_ : 1.0;  // at rest: J
   out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
-  out.energy_drift = initial_energy_ > 0.0 ? std::abs(out.energy - initial_energy_) / initial_energy_
-                                           : std::abs(out.energy - initial_energy_);
+  out.energy_change = (out.energy - initial_energy_) / scale;
+  out.impactor_energy = (own_energy(impactor.energy()) - impactor_start_energy_) / scale;
+  out.structure_energy = (own_energy(structure.energy()) - structure_start_energy_) / scale;
   // Work on particles and work on the surface differ by what the contacts between them dissipate and store.
   const double given_work = find(impactor, observable::work_on_surface).value_or(-impactor.energy().interface_work());
   out.interface_mismatch = given_work - structure.energy().interface_work();
-  return out;
+  out.energy_drift = 0.0;
+  for (const double part :
+       {out.energy_change, out.impactor_energy, out.structure_energy, out.interface_mismatch / scale}) {
+    out.energy_drift = std::max(out.energy_drift, std::abs(part));
+  }
 }
 
 }  // namespace grainstep::ledger

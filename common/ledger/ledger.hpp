@@ -21,10 +21,13 @@ struct Balance {
   Closure structure;
   Vector in_flight{};  ///< N s: given by the impactor, not yet taken up by the structure; 0 with equal steps
   double interface_momentum = 0.0;  ///< what the sides claim to have received, beyond what the messages carried
-  double momentum_error = 0.0;  ///< of the whole: change of both - supports - in flight, or the interface's, if larger
-  double energy = 0.0;          ///< J: kinetic, stored and dissipated of both, less the supports' work
-  double energy_drift = 0.0;    ///< |energy - initial energy| over initial energy
+  double momentum_error = 0.0;   ///< of the whole: change of both - supports - in flight, or the interface's, if larger
+  double energy = 0.0;           ///< J: kinetic, stored and dissipated of both, less the supports' work
+  double energy_change = 0.0;    ///< of the whole: energy less initial energy
+  double impactor_energy = 0.0;  ///< not explained by the work done on it through the surface, over initial energy
+  double structure_energy = 0.0;    ///< the same
   double interface_mismatch = 0.0;  ///< J: work on the surface as the impactor sees it, less as the structure does
+  double energy_drift = 0.0;  ///< largest of those four, over initial energy: gain in one must not hide loss in another
 };
 
 /// Everything that one side still has, has lost to dissipation, or has passed to its supports, in J.
@@ -47,9 +50,12 @@ class Ledger {
   [[nodiscard]] Closure side(const wire::Momentum& now, const wire::Momentum& start) const;
   [[nodiscard]] double interface_excess(const Balance& balance, const HandedOver& handed_over) const;
   [[nodiscard]] double relative(double momentum) const;
+  void close_energy(const wire::Report& impactor, const wire::Report& structure, Balance& out) const;
 
   wire::Momentum impactor_start_;
   wire::Momentum structure_start_;
+  double impactor_start_energy_;   // J, less the work done on it
+  double structure_start_energy_;  // the same
   bool equal_steps_;
   double initial_energy_;
   double momentum_scale_;
