@@ -1,6 +1,8 @@
 #include "orchestrator/lock_step.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "base/error.hpp"
@@ -29,7 +31,9 @@ LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, d
       start_(start),
       silence_s_(silence_s),
       values_(hub.structure().ready.surface().position_size()),
+      position_(hub.structure().ready.surface().position().begin(), hub.structure().ready.surface().position().end()),
       next_forces_(start.first_window()) {
+  for (const double x : position_) size_ = std::max(size_, std::abs(x));
   for (Extra* side : {&impactor_, &structure_}) {
     side->next_report = start.first_window();
     side->last_snapshot = start.snapshot_every() == 0;
@@ -124,6 +128,25 @@ void LockStep::on_kinematics(const wire::Frame& frame) {
   require_size(structure, "velocity in Kinematics", next_forces_, kinematics_.velocity_size());
   require_finite(structure, "position in Kinematics", next_forces_, kinematics_.position());
   require_finite(structure, "velocity in Kinematics", next_forces_, kinematics_.velocity());
+  require_motion(structure);
+}
+
+// The impactor moves the surface by the one and computes contact with the other: no ledger would see that they differ.
+void LockStep::require_motion(const Peer& structure) {
+  constexpr double of_the_way = 1e-6;
+  constexpr double of_the_size = 1e-12;  // round-off of positions, summed up over a window's steps
+  for (int i = 0; i < values_; ++i) {
+    const double way = kinematics_.position(i) - position_[static_cast<std::size_t>(i)];
+    const double told = kinematics_.velocity(i) * start_.window();
+    if (std::abs(way - told) > of_the_way * std::abs(told) + of_the_size * size_) {
+      std::ostringstream text;
+      text << "Kinematics of window " << next_forces_ << ": coordinate " << i % 2 + 1 << " of node " << i / 2
+           << " moved by " << way << " m, but the velocity sent with it times the window makes " << told
+           << " m. Send the mean velocity of the window that has ended, and its position at the end.";
+      throw PeerError(structure.name(), text.str());
+    }
+  }
+  position_.assign(kinematics_.position().begin(), kinematics_.position().end());
 }
 
 // The next window after `window` at which a report, or else a snapshot, is due.

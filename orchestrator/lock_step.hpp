@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "orchestrator/hub.hpp"
 #include "orchestrator/step_observer.hpp"
@@ -9,7 +10,8 @@
 namespace grainstep::orchestrator {
 
 /// Runs from Start to the last report of both sides. Throws PeerError for silence, messages out of order or of the
-/// wrong size; NumericalError for numbers that are not finite; what the observer throws.
+/// wrong size, a velocity that does not belong to the motion; NumericalError for numbers that are not finite; what the
+/// observer throws.
 class LockStep {
  public:
   LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s);
@@ -23,6 +25,7 @@ class LockStep {
   void on_report(Peer& peer, const wire::Frame& frame);
   void on_snapshot(Peer& peer, const wire::Frame& frame);
   void require_size(const Peer& peer, const char* what, std::uint64_t window, int found) const;
+  void require_motion(const Peer& structure);
   [[nodiscard]] bool done() const;
   [[nodiscard]] const Peer& waited_for() const;
 
@@ -40,8 +43,10 @@ class LockStep {
   StepObserver& observer_;
   wire::Start start_;
   double silence_s_;
-  int values_;                 // nodes x dimension of the surface
-  std::uint64_t next_forces_;  // window of the Forces that come next
+  int values_;                    // nodes x dimension of the surface
+  std::vector<double> position_;  // m, of the surface at the last exchange
+  double size_ = 0.0;             // m, its largest coordinate
+  std::uint64_t next_forces_;     // window of the Forces that come next
   Extra impactor_;
   Extra structure_;
   wire::Forces forces_;  // kept: their capacity is reused

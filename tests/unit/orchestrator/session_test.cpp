@@ -221,6 +221,7 @@ class HandPlayed : public ::testing::Test {
  protected:
   HandPlayed() : hub_(*impactor_.near_, *structure_.near_, loop_) {
     for (const double x : {0.0, 0.0, 1.0, 0.0}) hub_.structure().ready.mutable_surface()->add_position(x);
+    start_.set_window(1e-3);
     start_.set_windows(10);
     start_.set_report_every(5);
   }
@@ -233,8 +234,8 @@ class HandPlayed : public ::testing::Test {
   static wire::Kinematics kinematics(std::uint64_t window) {
     wire::Kinematics out;
     out.set_window(window);
-    for (int i = 0; i < 4; ++i) {
-      out.add_position(0.0);
+    for (const double x : {0.0, 0.0, 1.0, 0.0}) {
+      out.add_position(x);
       out.add_velocity(0.0);
     }
     return out;
@@ -291,6 +292,25 @@ TEST_F(HandPlayed, RefusesAMessageOfTheWrongSize) {
   wrong.add_impulse(0.0);
   impactor_.messages_->send(wrong);
   EXPECT_THAT(run(), HasSubstr("peer: impactor: Forces of window 0 holds 5 values, the surface has 4"));
+}
+
+TEST_F(HandPlayed, RefusesAVelocityThatIsNotTheMotion) {
+  auto half = kinematics(1);  // the last of two steps, instead of the mean of both
+  half.set_position(3, -2e-3);
+  half.set_velocity(3, -3.0);
+  impactor_.messages_->send(forces(0));
+  structure_.messages_->send(half);
+  EXPECT_THAT(run(), HasSubstr("peer: structure: Kinematics of window 1: coordinate 2 of node 1 moved by -0.002 m, but "
+                               "the velocity sent with it times the window makes -0.003 m"));
+}
+
+TEST_F(HandPlayed, TakesTheMeanVelocityOfTheMotion) {
+  auto mean = kinematics(1);
+  mean.set_position(3, -2e-3);
+  mean.set_velocity(3, -2.0);
+  impactor_.messages_->send(forces(0));
+  structure_.messages_->send(mean);
+  EXPECT_THAT(run(0.2), HasSubstr("peer: impactor: said nothing for"));
 }
 
 TEST_F(HandPlayed, NumbersThatAreNotFiniteEndTheRun) {
