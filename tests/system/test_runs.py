@@ -34,6 +34,16 @@ class Complete(unittest.TestCase):
         self.assertAlmostEqual(summary["final_time"], 0.3, delta=1e-3)
         self.assertGreater(summary["peak_deflection"], 0.03)
 
+    def test_both_sides_see_the_same_work_and_no_loss_hides_behind_a_gain(self):
+        with h5py.File(self.run_.out / "results.h5") as file:
+            ledger = file["ledger"]
+            initial = ledger["energy"][0]
+            # Equal steps: both sides pair every impulse with the same velocities.
+            self.assertLess(np.abs(ledger["interface_mismatch"][()]).max() / initial, 1e-12)
+            parts = [ledger["energy_change"][()], ledger["impactor/energy/error"][()],
+                     ledger["structure/energy/error"][()], ledger["interface_mismatch"][()] / initial]
+            np.testing.assert_array_equal(ledger["energy_drift"][()], np.abs(parts).max(axis=0))
+
     def test_every_dataset_has_a_unit_a_title_and_finite_values(self):
         def look(name, item):
             if isinstance(item, h5py.Dataset):
