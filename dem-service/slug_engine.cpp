@@ -84,8 +84,8 @@ void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) 
     }
   }
   // The box grows with the particles, but never gets smaller than it is now: LAMMPS refuses one much thinner than the
-  // neighbour cutoff, which a single row of particles would make. Ranks share it along x1, so that all have their part of
-  // the front.
+  // neighbour cutoff, which a single row of particles would make. Ranks share it along x1, so that all have their part
+  // of the front.
   for (const char* line : {"units si", "atom_style sphere", "dimension 2", "newton on", "boundary m m p",
                            "comm_modify vel yes", "processors * 1 1"}) {
     session_.command(line);
