@@ -7,12 +7,24 @@
 #include <system_error>
 
 namespace grainstep::process {
+namespace {
+
+// Under nohup a closed terminal is to be survived: a signal that is ignored would still be read from a signalfd.
+bool is_ignored(int number) {
+  struct sigaction now {};
+  return ::sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+}  // namespace
 
 Interrupt::Interrupt() {
   sigset_t watched;
   sigemptyset(&watched);
   sigaddset(&watched, SIGINT);
   sigaddset(&watched, SIGTERM);
+  if (!is_ignored(SIGHUP)) {
+    sigaddset(&watched, SIGHUP);
+  }
   ::pthread_sigmask(SIG_BLOCK, &watched, &before_);
   descriptor_ = ::signalfd(-1, &watched, SFD_CLOEXEC | SFD_NONBLOCK);
   if (descriptor_ < 0) {

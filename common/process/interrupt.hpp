@@ -1,13 +1,14 @@
-/// @file Ctrl-C and SIGTERM as something to poll() for, so that a run can be ended in good order.
+/// @file Ctrl-C, SIGTERM and a closed terminal (SIGHUP) as something to poll() for, so that a run can be ended in good
+/// order.
 #pragma once
 
 #include <signal.h>
 
 namespace grainstep::process {
 
-/// While it lives, the first SIGINT or SIGTERM makes descriptor() readable instead of ending the process; once raised()
-/// has seen it, the next one ends the process at once. Make it in the main thread before any other thread starts:
-/// threads inherit which signals are blocked. One per process.
+/// While it lives, the first SIGINT, SIGTERM or (unless it is ignored, as under nohup) SIGHUP makes descriptor()
+/// readable instead of ending the process; once raised() has seen it, the next one ends the process at once. Make it in
+/// the main thread before any other thread starts: threads inherit which signals are blocked. One per process.
 class Interrupt {
  public:
   Interrupt();

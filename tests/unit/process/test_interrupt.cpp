@@ -8,13 +8,25 @@ namespace grainstep::process {
 namespace {
 
 TEST(Interrupt, the_first_signal_is_readable) {
-  Interrupt interrupt;
-  EXPECT_FALSE(interrupt.raised());
-  ::kill(::getpid(), SIGTERM);
-  pollfd item{interrupt.descriptor(), POLLIN, 0};
-  ASSERT_EQ(::poll(&item, 1, 30'000), 1);
-  EXPECT_TRUE(interrupt.raised());
-  EXPECT_TRUE(interrupt.raised());
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    Interrupt interrupt;
+    EXPECT_FALSE(interrupt.raised());
+    ::kill(::getpid(), number);
+    pollfd item{interrupt.descriptor(), POLLIN, 0};
+    ASSERT_EQ(::poll(&item, 1, 30'000), 1) << number;
+    EXPECT_TRUE(interrupt.raised());
+    EXPECT_TRUE(interrupt.raised());
+  }
+}
+
+TEST(Interrupt, a_closed_terminal_is_survived_under_nohup) {
+  const auto before = ::signal(SIGHUP, SIG_IGN);
+  {
+    Interrupt interrupt;
+    ::kill(::getpid(), SIGHUP);
+    EXPECT_FALSE(interrupt.raised());
+  }
+  ::signal(SIGHUP, before);
 }
 
 TEST(InterruptDeathTest, the_second_signal_ends_the_process) {
