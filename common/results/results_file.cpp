@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "results/atomic_file.hpp"
 
 namespace grainstep::results {
 namespace {
@@ -27,14 +28,31 @@ void reserve_bytes(const std::filesystem::path& path, std::size_t bytes) {
   }
   ::close(fd);
   if (reason != 0) {
-    throw OutputError(path.string() + ": no room for " + std::to_string(bytes / 1024) +
-                      " KiB more: " + std::strerror(reason) + ". What was written before is readable.");
+    throw OutputError(path.string() + ": no room for " + std::to_string(bytes / 1024) + " KiB more: " +
+                      std::strerror(reason) + (size > 0 ? ". What was written before is readable." : ""));
   }
+}
+
+// The library does not survive that it cannot write a new file (it crashes when the process ends): make sure before.
+void require_room_for_a_new(const std::filesystem::path& path) {
+  std::error_code ignored;
+  try {
+    write_atomically(path, "");
+    reserve_bytes(path, room_for_library);
+  } catch (...) {
+    std::filesystem::remove(path, ignored);
+    throw;
+  }
+  std::filesystem::remove(path, ignored);
 }
 
 }  // namespace
 
 ResultsFile::ResultsFile(std::filesystem::path path, const std::vector<Text>& texts) : path_(std::move(path)) {
+  if (std::filesystem::exists(path_)) {
+    throw OutputError(path_.string() + ": exists already");
+  }
+  require_room_for_a_new(path_);
   h5::File file = h5::File::create(path_);
   for (const Text& text : texts) {
     file.write(text.dataset, text.contents, text.title);

@@ -96,6 +96,26 @@ TEST(ResultsFile, AFullDiskEndsWithAReasonAndKeepsTheLastBurst) {
   EXPECT_EQ(bytes_of(scratch.path() / "r.h5"), before);
 }
 
+TEST(ResultsFile, ANewFileThatFindsNoRoomIsAnErrorAndNotMade) {
+  const Scratch scratch;
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  rlimit low = old;
+  low.rlim_cur = 512;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &low), 0);
+  std::string text;
+  try {
+    const ResultsFile file(scratch.path() / "r.h5", {});
+  } catch (const OutputError& error) {
+    text = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(text, HasSubstr("r.h5: no room for"));
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "r.h5"));
+}
+
 TEST(ResultsFile, CanBeReadBackByName) {
   const Scratch scratch;
   ResultsFile file(scratch.path() / "r.h5", {{"/scene/title", "title", "a slug"}});

@@ -37,13 +37,20 @@ TEST(RunDirectory, WithARunIsRefusedUnlessReplaced) {
   directory.prepare(Existing::refuse);
   touch(directory.summary());
   touch(directory.paraview() / "particles_0000.vtp");
+  touch(directory.logs() / "impactor.log");
   touch(directory.path() / "notes.txt");
+  touch(directory.paraview() / "view.pvsm");
+  touch(directory.logs() / "notes.txt");
   EXPECT_THAT(refusal_of(directory), HasSubstr("--force"));
   EXPECT_TRUE(std::filesystem::exists(directory.summary()));
   EXPECT_EQ(refusal_of(directory, Existing::replace), "");
   EXPECT_FALSE(std::filesystem::exists(directory.summary()));
   EXPECT_FALSE(std::filesystem::exists(directory.paraview() / "particles_0000.vtp"));
-  EXPECT_TRUE(std::filesystem::exists(directory.path() / "notes.txt")) << "only the run's own files are removed";
+  EXPECT_FALSE(std::filesystem::exists(directory.logs() / "impactor.log"));
+  for (const auto& kept :
+       {directory.path() / "notes.txt", directory.paraview() / "view.pvsm", directory.logs() / "notes.txt"}) {
+    EXPECT_TRUE(std::filesystem::exists(kept)) << kept << ": only the run's own files are removed";
+  }
 }
 
 TEST(RunDirectory, BelowAFileOrOnAReadOnlySystemIsRefusedWithTheReason) {
