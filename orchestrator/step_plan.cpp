@@ -43,13 +43,28 @@ double impactor_step(const scene::Step& step, SideSteps side) {
   return seconds;
 }
 
+// Beyond this a count of steps is a slip of the pen, and far beyond it no integer holds it.
+constexpr double most_steps_per_window = 1e9;
+constexpr double most_windows = 1e15;
+
+std::uint64_t count(const std::string& where, const std::string& what, double value, double most) {
+  if (!(value <= most)) {
+    refuse(where, "would take " + number(value) + " " + what + ", at most " + number(most) +
+                      " can be counted. Ask for longer steps or an earlier end.");
+  }
+  return static_cast<std::uint64_t>(value);
+}
+
+std::uint32_t steps_per_window(double value) {
+  return static_cast<std::uint32_t>(count("steps", "steps per window", value, most_steps_per_window));
+}
+
 // A window is no longer than a contact, because the surface moves linearly in it; that also bounds the window of a
 // target that has no stable step of its own.
 void choose_structure_steps(StepPlan& plan, double preferred, double contact_time) {
   const double ratio = std::min(preferred, contact_time) / plan.impactor_step;
-  plan.impactor_steps = static_cast<std::uint32_t>(std::max(1.0, std::floor(ratio * (1.0 + round_off))));
-  plan.structure_steps =
-      static_cast<std::uint32_t>(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
+  plan.impactor_steps = steps_per_window(std::max(1.0, std::floor(ratio * (1.0 + round_off))));
+  plan.structure_steps = steps_per_window(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
 }
 
 // `ratio`: structure step over impactor step, which must be an integer or one over an integer.
@@ -64,7 +79,7 @@ void honour_structure_ratio(StepPlan& plan, double ratio) {
                " s, but the sides meet only when this is an integer or one over an integer. The nearest are " +
                step_of(std::floor(many)) + " s and " + step_of(std::floor(many) + 1.0) + " s.");
   }
-  (longer ? plan.impactor_steps : plan.structure_steps) = static_cast<std::uint32_t>(whole);
+  (longer ? plan.impactor_steps : plan.structure_steps) = steps_per_window(whole);
   plan.structure_fixed = true;
 }
 
@@ -101,7 +116,12 @@ StepPlan plan_steps(const scene::Scene& scene, double end, SideSteps impactor, S
   }
   plan.window = plan.impactor_steps * plan.impactor_step;
   plan.structure_step = plan.window / plan.structure_steps;
-  plan.windows = static_cast<std::uint64_t>(std::max(1.0, std::ceil(end / plan.window * (1.0 - round_off))));
+  if (plan.structure_fixed && plan.impactor_steps > 1 && plan.window > end * (1.0 + round_off)) {
+    refuse("steps.structure", "a step of " + number(plan.window) + " s is longer than the whole run of " + number(end) +
+                                  " s. Write a smaller one, or auto.");
+  }
+  plan.windows = count("time.end", "windows of " + number(plan.window) + " s",
+                       std::max(1.0, std::ceil(end / plan.window * (1.0 - round_off))), most_windows);
   plan.report_every = every(plan.windows, scene.output().rows());
   const std::uint32_t snapshots = scene.output().snapshots();  // the first of them at the start
   plan.snapshot_every = snapshots == 1 ? plan.windows + 1 : every(plan.windows, snapshots == 0 ? 0 : snapshots - 1);

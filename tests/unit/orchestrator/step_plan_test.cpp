@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include <limits>
+
 #include "base/error.hpp"
 
 namespace grainstep::orchestrator {
@@ -25,13 +27,17 @@ StepPlan with_structure(double stable) {
   return plan_steps(automatic(), 3e-3, impactor, {.stable = stable, .preferred = stable});
 }
 
-std::string refusal(const scene::Scene& scene, SideSteps structure = {1e-7, 1e-7}) {
+std::string refusal_until(double end, const scene::Scene& scene, SideSteps structure = {1e-7, 1e-7}) {
   try {
-    static_cast<void>(plan_steps(scene, 3e-3, impactor, structure));
+    static_cast<void>(plan_steps(scene, end, impactor, structure));
   } catch (const InputError& error) {
     return error.what();
   }
   return "";
+}
+
+std::string refusal(const scene::Scene& scene, SideSteps structure = {1e-7, 1e-7}) {
+  return refusal_until(3e-3, scene, structure);
 }
 
 TEST(StepPlan, ASlowerStructureTakesOneStepForSeveralOfTheImpactor) {
@@ -102,6 +108,30 @@ TEST(StepPlan, RefusesStepsThatNeverMeetAndNamesTheNearest) {
   auto scene = automatic();
   scene.mutable_steps()->mutable_structure()->set_seconds(6e-8);
   EXPECT_THAT(refusal(scene), ::testing::AllOf(HasSubstr("2.5 times"), HasSubstr("4.8e-08"), HasSubstr("7.2e-08")));
+}
+
+TEST(StepPlan, RefusesWhatNoIntegerCounts) {
+  constexpr SideSteps unlimited{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  auto scene = automatic();
+  for (const double ratio : {1e12, 1e300}) {
+    scene.mutable_steps()->mutable_structure()->set_ratio(ratio);
+    EXPECT_THAT(refusal(scene, unlimited), HasSubstr("steps"));
+  }
+  scene.mutable_steps()->mutable_structure()->set_ratio(1e-12);
+  EXPECT_THAT(refusal(scene), HasSubstr("1e+12 steps per window"));
+  scene = automatic();
+  EXPECT_THAT(refusal_until(1e300, scene), HasSubstr("time.end: would take"));
+  for (const double fine : {1e30, 1e300}) {
+    scene.mutable_steps()->mutable_impactor()->set_ratio(fine);
+    EXPECT_THAT(refusal(scene, unlimited), HasSubstr("would take"));
+  }
+}
+
+TEST(StepPlan, RefusesAWindowThatIsLongerThanTheRun) {
+  constexpr SideSteps unlimited{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  auto scene = automatic();
+  scene.mutable_steps()->mutable_structure()->set_ratio(200000);  // of 2.4e-8 s: longer than 3e-3 s
+  EXPECT_THAT(refusal(scene, unlimited), ::testing::AllOf(HasSubstr("steps.structure"), HasSubstr("0.0048")));
 }
 
 TEST(StepPlan, ExtraOutputComesAboutAsOftenAsAskedFor) {
