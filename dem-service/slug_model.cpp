@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -10,6 +11,8 @@
 
 namespace grainstep::dem {
 namespace {
+
+constexpr double most_particles = std::numeric_limits<int>::max();  // LAMMPS's own numbers of particles
 
 void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth) {
   std::ostringstream text;
@@ -53,7 +56,14 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   const double section = std::numbers::pi * model.diameter * model.diameter / 4.0;
   model.mass = particle.density() * depth * section;
   const double width = (mirror ? 1.0 : 2.0) * model.half_width;
-  model.particles = static_cast<std::uint64_t>(std::llround(model.relative_density * width * model.height / section));
+  const double particles = std::round(model.relative_density * width * model.height / section);
+  if (!(particles <= most_particles)) {
+    std::ostringstream text;
+    text << "impactor.slug: " << particles << " particles of " << model.diameter << " m, but LAMMPS counts up to "
+         << most_particles << ": choose a larger particle.diameter";
+    throw InputError(text.str());
+  }
+  model.particles = static_cast<std::uint64_t>(particles);
   if (model.particles == 0) throw InputError("impactor.slug.relative_density: so small that no particle is left");
 
   const double kn = particle.normal_stiffness();
