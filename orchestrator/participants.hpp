@@ -27,6 +27,10 @@ class Participants {
   /// Starts those that are ours and prints, for the others, the command that starts them.
   void start(Supervision& supervision, const results::RunDirectory& directory);
 
+  /// Takes the local sockets' names from the file system once both are connected, which needs them no more: whatever
+  /// ends this process from then on, nothing of them stays.
+  void close_doors() { sockets_.remove(); }
+
  private:
   struct Side {
     wire::Role role;

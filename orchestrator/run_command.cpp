@@ -46,7 +46,10 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
   });
   Participants participants(preparation.scene, options);
   Supervision supervision(loop);
-  Hub hub(participants.impactor(), participants.structure(), loop, [&supervision, &hub] {
+  Hub hub(participants.impactor(), participants.structure(), loop, [&supervision, &participants, &hub] {
+    if (hub.impactor().introduced && hub.structure().introduced) {
+      participants.close_doors();
+    }
     supervision.watch({.impactor = hub.impactor().finished, .structure = hub.structure().finished});
   });
   participants.start(supervision, directory);

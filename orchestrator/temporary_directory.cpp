@@ -29,9 +29,14 @@ TemporaryDirectory::TemporaryDirectory() {
   path_ = pattern;
 }
 
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+TemporaryDirectory::~TemporaryDirectory() { remove(); }
+
+void TemporaryDirectory::remove() noexcept {
+  if (!removed_) {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+    removed_ = true;
+  }
 }
 
 }  // namespace grainstep::orchestrator

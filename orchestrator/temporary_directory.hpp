@@ -13,10 +13,14 @@ class TemporaryDirectory {
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
   ~TemporaryDirectory();
 
+  /// Before its time; once is enough.
+  void remove() noexcept;
+
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
+  bool removed_ = false;
 };
 
 }  // namespace grainstep::orchestrator
