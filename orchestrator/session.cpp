@@ -1,6 +1,7 @@
 #include "orchestrator/session.hpp"
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "base/error.hpp"
@@ -10,6 +11,13 @@ namespace grainstep::orchestrator {
 namespace {
 
 using seconds = std::chrono::duration<double>;
+
+std::string number(double value) {  // a step of 1e-7 s is nothing to std::to_string
+  std::ostringstream out;
+  out.precision(4);
+  out << value;
+  return out.str();
+}
 
 Hub::Until at(transport::Deadline deadline) {
   return [deadline] { return deadline; };
@@ -83,9 +91,12 @@ void Session::make_ready(Peer& peer, const wire::Setup& setup) {
   }
   if (!(peer.ready.stable_step() > 0.0) || !(peer.ready.preferred_step() > 0.0) ||
       !std::isfinite(peer.ready.preferred_step())) {
-    throw PeerError(peer.name(), "gives a stable step of " + std::to_string(peer.ready.stable_step()) +
-                                     " s and prefers " + std::to_string(peer.ready.preferred_step()) +
-                                     " s; both must be above zero");
+    throw PeerError(peer.name(), "gives a stable step of " + number(peer.ready.stable_step()) + " s and prefers " +
+                                     number(peer.ready.preferred_step()) + " s; both must be above zero");
+  }
+  if (peer.ready.preferred_step() > peer.ready.stable_step()) {
+    throw PeerError(peer.name(), "prefers a step of " + number(peer.ready.preferred_step()) +
+                                     " s, but is stable only up to " + number(peer.ready.stable_step()) + " s");
   }
 }
 
@@ -144,6 +155,8 @@ void Session::tell_to_stop(const std::string& reason) {
   message.set_abandoned(true);
   for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) {
     try {
+      // Who has not said Hello may not be there at all, and sending would wait for it.
+      peer->finished = peer->finished || !peer->introduced;
       if (!peer->finished) {
         peer->messages.send(message);
       }
