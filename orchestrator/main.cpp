@@ -40,5 +40,7 @@ int main(int argc, char** argv) {
     return fail(ExitCode::output, error);
   } catch (const grainstep::PeerError& error) {
     return fail(ExitCode::peer, error);
+  } catch (const std::exception& error) {  // the system's refusals; caught, so that all that was made is cleaned away
+    return fail(ExitCode::unforeseen, error);
   }
 }

@@ -25,6 +25,14 @@ Json read_summary(const std::filesystem::path& path) {
   return out;
 }
 
+std::string digest_of(const Json& facts, const std::filesystem::path& path) {
+  try {
+    return digest(facts);
+  } catch (const Json::exception& error) {
+    throw InputError(path.string() + ": is not a whole summary of a run of this version: " + error.what());
+  }
+}
+
 double last(const results::h5::File& file, const std::string& dataset) {
   if (!file.has(dataset)) {
     return 0.0;
@@ -76,7 +84,7 @@ void show(const ShowOptions& options) {
   if (options.json) {
     std::printf("%s\n", facts.dump(2).c_str());
   } else if (ended) {
-    std::fputs(digest(facts).c_str(), stdout);
+    std::fputs(digest_of(facts, directory.summary()).c_str(), stdout);
   } else {
     print_progress(facts);
   }

@@ -69,25 +69,26 @@ Json summary(const SummaryInput& in) {
 }
 
 std::string digest(const Json& s) {
-  std::string out = "status               " + s["status"].get<std::string>();
-  if (const auto reason = s["reason"].get<std::string>(); !reason.empty()) {
+  std::string out = "status               " + s.at("status").get<std::string>();
+  if (const auto reason = s.at("reason").get<std::string>(); !reason.empty()) {
     out += ": " + reason;
   }
-  out += "\nimpulse number I_o   " + text_of(s["impulse_number"], "%.3g");
-  out += "\npeak deflection      " + text_of(s["peak_deflection"], "%.4f") + " w/L at t_bar " +
-         text_of(s["peak_deflection_time"], "%.3f") + " (run to " + text_of(s["final_time"], "%.3f") + ")";
-  out += "\ntransmitted impulse  " + text_of(s["transmitted_impulse"], "%.4f") + " I_t/I0, early pressure " +
-         text_of(s["early_pressure"], "%.3f") + " p/(rho_bar rho_s v0^2)";
-  out += "\nledgers              momentum error " + text_of(s["momentum_error"], "%.1e") + ", energy drift " +
-         text_of(s["energy_drift"], "%.2e");
-  const Json& split = s["wall_split"];
-  out += "\nsize                 " + text_of(s["particles"], "%.0f") + " particles, " + text_of(s["elements"], "%.0f") +
-         " elements, " + text_of(s["impactor_steps"], "%.0f") + " and " + text_of(s["structure_steps"], "%.0f") +
-         " steps";
-  out += "\nwall clock           " + text_of(s["wall_seconds"], "%.1f") + " s: impactor " +
-         text_of(split["impactor_compute"], "%.1f") + " + " + text_of(split["impactor_wait"], "%.1f") +
-         " waiting, structure " + text_of(split["structure_compute"], "%.1f") + " + " +
-         text_of(split["structure_wait"], "%.1f") + " waiting, orchestrator " + text_of(split["orchestrator"], "%.1f");
+  out += "\nimpulse number I_o   " + text_of(s.at("impulse_number"), "%.3g");
+  out += "\npeak deflection      " + text_of(s.at("peak_deflection"), "%.4f") + " w/L at t_bar " +
+         text_of(s.at("peak_deflection_time"), "%.3f") + " (run to " + text_of(s.at("final_time"), "%.3f") + ")";
+  out += "\ntransmitted impulse  " + text_of(s.at("transmitted_impulse"), "%.4f") + " I_t/I0, early pressure " +
+         text_of(s.at("early_pressure"), "%.3f") + " p/(rho_bar rho_s v0^2)";
+  out += "\nledgers              momentum error " + text_of(s.at("momentum_error"), "%.1e") + ", energy drift " +
+         text_of(s.at("energy_drift"), "%.2e");
+  const Json& split = s.at("wall_split");
+  out += "\nsize                 " + text_of(s.at("particles"), "%.0f") + " particles, " +
+         text_of(s.at("elements"), "%.0f") + " elements, " + text_of(s.at("impactor_steps"), "%.0f") + " and " +
+         text_of(s.at("structure_steps"), "%.0f") + " steps";
+  out += "\nwall clock           " + text_of(s.at("wall_seconds"), "%.1f") + " s: impactor " +
+         text_of(split.at("impactor_compute"), "%.1f") + " + " + text_of(split.at("impactor_wait"), "%.1f") +
+         " waiting, structure " + text_of(split.at("structure_compute"), "%.1f") + " + " +
+         text_of(split.at("structure_wait"), "%.1f") + " waiting, orchestrator " +
+         text_of(split.at("orchestrator"), "%.1f");
   return out + "\n";
 }
 

@@ -9,7 +9,15 @@
 namespace grainstep {
 
 /// Exit codes of every program of the project.
-enum class ExitCode : int { done = 0, bad_input = 2, numerical = 3, peer = 4, output = 5, interrupted = 130 };
+enum class ExitCode : int {
+  done = 0,
+  unforeseen = 1,
+  bad_input = 2,
+  numerical = 3,
+  peer = 4,
+  output = 5,
+  interrupted = 130
+};
 
 /// The user's input cannot be computed. The text says where, what was found, what was expected and what to do.
 class InputError : public std::runtime_error {

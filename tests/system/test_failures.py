@@ -49,6 +49,22 @@ class AbsentParticipant(unittest.TestCase):
             run.left_over()
 
 
+    EXTERNAL = ("--external", "impactor", "--external", "structure")
+
+    def test_nobody_connected(self):
+        with Run(*self.EXTERNAL, "--connect-deadline", "1") as run:
+            run.end(LOST)
+            self.assertEqual(run.code, 4)
+            self.assertIn("impactor and structure: did not connect within 1 s", run.stderr)
+
+    def test_the_keyboard_ends_waiting(self):
+        with Run(*self.EXTERNAL) as run:
+            until(lambda: "grainstep-dem" in run.process.stdout.readline(), "the second command to start")
+            run.process.send_signal(signal.SIGINT)
+            run.end(LOST)
+            self.assertEqual(run.code, 130, run.stderr)
+
+
 class Interrupted(unittest.TestCase):
     def interrupt(self, how):
         with Run(*LONG) as run:
@@ -66,12 +82,17 @@ class Interrupted(unittest.TestCase):
     def test_by_the_system(self):
         self.interrupt(signal.SIGTERM)
 
+    def test_by_a_closed_terminal(self):
+        self.interrupt(signal.SIGHUP)
+
     def test_orchestrator_killed_leaves_readable_results_and_no_process(self):
-        with Run(*LONG) as run:
+        with tempfile.TemporaryDirectory() as scratch, Run(*LONG, env={**os.environ, "TMPDIR": scratch}) as run:
+            sockets = pathlib.Path(scratch)
             run.wait_for_rows()
             run.process.kill()
             run.end()
             run.left_over()
+            self.assertEqual(list(sockets.glob("grainstep-*")), [], "no socket stays")
             self.assertGreaterEqual(run.rows(), 1)
             shown = subprocess.run([BIN / "grainstep", "show", run.out, "--json"], capture_output=True, text=True)
             self.assertEqual(json.loads(shown.stdout)["status"], "running")
@@ -149,6 +170,20 @@ class BadInput(unittest.TestCase):
             for out in (pathlib.Path(scratch) / "file" / "run", pathlib.Path("/proc/nowhere/run")):
                 with self.subTest(out), Run(out=out) as run:
                     self.refused(run, str(out))
+
+    def test_what_is_no_summary_is_refused_by_show(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            summary = pathlib.Path(scratch) / "summary.json"
+            for text in ("", "{", "[]", '{"status": 1}', '{"status": "done", "reason": ""}'):
+                summary.write_text(text)
+                with self.subTest(text):
+                    shown = subprocess.run([BIN / "grainstep", "show", scratch], capture_output=True, text=True)
+                    self.assertEqual(shown.returncode, 2, shown.stderr)
+                    self.assertTrue(shown.stderr.startswith(f"grainstep: {summary}: is not a"), shown.stderr)
+
+    def test_more_particles_than_can_be_counted(self):
+        with Run("--set", "impactor.slug.particle.diameter=1 um") as run:
+            self.refused(run, "particle.diameter")
 
     def test_command_lines(self):
         for arguments in (["run"], ["fly"], ["run", "x.yaml", "--ranks", "0"], ["show", "/nowhere"], []):
