@@ -1,9 +1,11 @@
 /// @file The contact law of particles: linear spring and dashpot along the normal, spring and slider tangentially
 /// (2.1, 2.2). Used for particles on the structure and on the mirror plane; pairs of particles get the same law from
 /// LAMMPS's gran/hooke/history. Why and with which signs: docs/theory/contact.md.
+///
+/// Operations come in the order in which LAMMPS's granular styles do them: where the same particle meets the same flat
+/// wall, every bit of the force is the same. Regrouping a product is allowed, but shows in DemWallGran.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "surface/vec.hpp"
@@ -20,27 +22,60 @@ struct ContactLaw {
   bool tension_cutoff = false;        ///< no pull: the total normal force is never below zero
 };
 
-/// Both parts in N, repulsive positive.
+/// The branch vector r n, from the touched point to the particle's centre or from one centre to the other. The law is
+/// evaluated with it instead of the unit normal n.
+struct Branch {
+  Vec3 vector;               ///< m
+  double length = 0.0;       ///< m, r; negative for a centre inside the structure
+  double per_length = 0.0;   ///< 1/m
+  double per_squared = 0.0;  ///< 1/m^2
+};
+
+/// `normal` a unit vector; `radius` the particle's, m. A branch without length has no direction to compute with: a
+/// centre that lies on the surface itself is taken to lie a billionth of its radius outside.
+[[nodiscard]] inline Branch branch_along(const Vec3& normal, double length, double radius) {
+  const double shortest = 1e-9 * radius;
+  const double r = std::abs(length) < shortest ? shortest : length;
+  return {r * normal, r, 1.0 / r, 1.0 / (r * r)};
+}
+
+/// The part of `a` along the branch.
+[[nodiscard]] inline Vec3 along(const Branch& branch, const Vec3& a) {
+  return branch.vector * dot(a, branch.vector) * branch.per_squared;
+}
+
+/// Both parts in N per m of the branch vector, by which they are to be multiplied. Repulsive positive.
 struct NormalForce {
   double spring = 0.0;
   double dashpot = 0.0;
   [[nodiscard]] double total() const { return spring + dashpot; }
 };
 
-/// Fn = Kn delta + m_eff gamma_n delta_dot (2.1). `overlap` delta in m, positive; `approach` delta_dot in m/s, positive
-/// while the overlap grows. Where a cut-off is asked for it takes the dashpot's share, so that the spring's energy
-/// stays.
-[[nodiscard]] inline NormalForce normal_force(const ContactLaw& law, double overlap, double approach,
-                                              double effective_mass) {
-  NormalForce force{law.normal_stiffness * overlap, effective_mass * law.damping_rate * approach};
-  if (law.tension_cutoff) force.dashpot = std::max(force.dashpot, -force.spring);
+/// Fn = Kn delta + m_eff gamma_n delta_dot (2.1), over r. `overlap` delta in m, positive; `relative` the velocity
+/// against the partner in m/s, so that delta_dot = -relative.n. Where a cut-off is asked for it takes the dashpot's
+/// share, so that the spring's energy stays.
+[[nodiscard]] inline NormalForce normal_force(const ContactLaw& law, const Branch& branch, double overlap,
+                                              const Vec3& relative, double effective_mass) {
+  const double damping = effective_mass * law.damping_rate * dot(relative, branch.vector) * branch.per_squared;
+  NormalForce force{law.normal_stiffness * overlap * branch.per_length, -damping};
+  // Inside the structure both parts are divided by a negative length.
+  if (law.tension_cutoff && force.total() * branch.length < 0.0) force.dashpot = -force.spring;
   return force;
 }
 
+/// Velocity (m/s) of the particle's skin on the partner, in the tangent plane: `lever` (m) from the centre to it.
+[[nodiscard]] inline Vec3 slip_rate(const Branch& branch, const Vec3& relative, double lever, const Vec3& spin) {
+  const Vec3 rolling = lever * spin * branch.per_length;
+  return relative - along(branch, relative) - cross(rolling, branch.vector);
+}
+
 /// The tangential spring follows the surface: its part along the new normal is dropped and its length kept.
-/// A spring that would point along the normal (a fold of 90 degrees) is lost.
-[[nodiscard]] inline Vec3 turned_into_tangent_plane(const Vec3& spring, const Vec3& normal) {
-  const Vec3 flat = spring - dot(spring, normal) * normal;
+/// A spring that would point along the normal (a fold of 90 degrees) is lost. One that is off the tangent plane by no
+/// more than `negligible` (m) is left as it is: where nothing turns, turning would only add round-off.
+[[nodiscard]] inline Vec3 turned_into_tangent_plane(const Vec3& spring, const Vec3& normal, double negligible) {
+  const double off = dot(spring, normal);
+  if (std::abs(off) <= negligible) return spring;
+  const Vec3 flat = spring - off * normal;
   const double flat_length = norm(flat);
   if (!(flat_length > 0.0)) return {};
   return flat * (norm(spring) / flat_length);

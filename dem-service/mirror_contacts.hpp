@@ -19,6 +19,8 @@ class MirrorContacts {
   void rebuild(const ParticleArrays& particles);
   void begin_interval(double dt) { ledger_.add(dt / 2.0, particle_side_, {}); }
   void evaluate(const ParticleArrays& particles);
+  /// Adds the forces of the last evaluation to the particles. These must stand in the same order.
+  void apply(const ParticleArrays& particles) const;
   void end_interval(const ParticleArrays& particles, double dt);
 
   /// Its work is zero in sum: what the springs store and the dashpots take is the particles' own.
@@ -29,7 +31,7 @@ class MirrorContacts {
  private:
   struct Contact {
     int particle;
-    NormalForce force;
+    double total, dashpot;  ///< N, along x1
   };
   ContactLaw law_;
   double margin_;

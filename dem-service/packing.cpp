@@ -60,7 +60,8 @@ class Cells {
 /// 53 random bits: the standard fixes the generator's bits, but not what its distributions make of them.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-/// Up to 0.53, fifty attempts per disc and unit of free room suffice by far; twenty thousand per disc is never.
+/// Discs of a large slug take 2 attempts each at a solid fraction of 0.2, 13 at 0.45, 57 at 0.5, 470 to 640 at 0.53 (20
+/// thousand discs, three seeds). 3000 each leave room; a slug of few discs gets some more. Beyond that it has jammed.
 std::uint64_t attempt_budget(std::uint64_t count) { return 100000 + 3000 * count; }
 
 }  // namespace

@@ -74,6 +74,12 @@ void StepDriver::before_pair_forces(std::uint64_t step, const ParticleArrays& pa
   if (step % start_.impactor_steps() == 0) exchange_.hand_over(step / start_.impactor_steps(), nodal_);
 }
 
+void StepDriver::after_pair_forces(const ParticleArrays& particles) {
+  if (ended_) return;
+  contacts_.apply(particles);
+  if (mirror_) mirror_->apply(particles);
+}
+
 participant::Due StepDriver::due_after(std::uint64_t step) const {
   if (step % start_.impactor_steps() != 0) return {};
   return participant::due_at(start_, step / start_.impactor_steps());

@@ -1,7 +1,8 @@
 /// @file What happens in every step besides LAMMPS's own: surface and mirror contact, exchange, ledger. No LAMMPS.
 ///
 /// Calls per step, in this order: rebuild() if particles were reordered or left their margin, before_pair_forces(),
-/// end_of_step(). Step 0 is the state at the start. Window n ends with step n times impactor_steps.
+/// after_pair_forces(), end_of_step(). Step 0 is the state at the start. Window n ends with step n times
+/// impactor_steps.
 #pragma once
 
 #include <optional>
@@ -27,6 +28,9 @@ class StepDriver {
 
   /// Contact with surface and mirror at this step; at a window's end the impulse is on its way before this returns.
   void before_pair_forces(std::uint64_t step, const ParticleArrays& particles);
+
+  /// Adds the forces that before_pair_forces() has found.
+  void after_pair_forces(const ParticleArrays& particles);
 
   /// Which of this step's contacts between particles are to be sampled, if any: all of them where a report needs what
   /// they store, else a part that wanders through the list.

@@ -12,6 +12,8 @@ using surface::in_space;
 using surface::Vec2;
 using surface::Vec3;
 
+constexpr double round_off = 1e-13;  // of a radius: springs shorter than that carry nothing
+
 std::string tunnelled(const ParticleArrays& particles, int i, const ClosestPoint& at) {
   const double* x = particles.position[i];
   std::ostringstream text;
@@ -70,28 +72,33 @@ void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface
   const double radius = particles.radius[i];
   const double overlap = radius - at.distance;
   const Vec3 normal = in_space(at.normal);
+  const Branch branch = branch_along(normal, at.distance, radius);
   const Vec3 relative = vector_of(particles.velocity[i]) - in_space(surface.now().interpolate(surface.velocity(), at));
-  const double separation = dot(relative, normal);
-  const NormalForce push = normal_force(law, overlap, -separation, particles.mass[i]);
+  const NormalForce push = normal_force(law, branch, overlap, relative, particles.mass[i]);
 
   Vec3 drag;
   Vec3 torque;
   if (law.friction > 0.0 && law.tangential_stiffness > 0.0) {
-    // From the centre to the touched point: minus the lever along the normal.
-    const Vec3 lever = normal * -(settings_.lever_is_radius ? radius : at.distance);
-    const Vec3 slip = relative - separation * normal + cross(vector_of(particles.spin[i]), lever);
-    Vec3 spring = turned_into_tangent_plane(particles.spring[i], normal) + slip * dt;
-    drag = tangential_force(law, push.total(), spring);
-    torque = cross(lever, drag);
+    const double lever = settings_.lever_is_radius ? radius : branch.length;
+    Vec3 spring = turned_into_tangent_plane(particles.spring[i], normal, round_off * radius);
+    spring += slip_rate(branch, relative, lever, vector_of(particles.spin[i])) * dt;
+    spring -= dot(spring, branch.vector) * branch.per_squared * branch.vector;
+    drag = tangential_force(law, push.total() * branch.length, spring);
+    torque = -(lever * (branch.per_length * cross(branch.vector, drag)));
     particles.spring[i] = spring;
     stored_tangential_ += 0.5 * law.tangential_stiffness * dot(spring, spring);
   }
   stored_normal_ += 0.5 * law.normal_stiffness * overlap * overlap;
   largest_overlap_ = std::max(largest_overlap_, overlap / (2.0 * radius));
-  const Vec3 total = push.total() * normal + drag;
-  add_to(particles.force[i], total);
-  add_to(particles.torque[i], torque);
-  contacts_.push_back({i, at, push.dashpot * normal, drag, total, torque});
+  const Vec3 total = push.total() * branch.vector + drag;
+  contacts_.push_back({i, at, push.dashpot * branch.vector, drag, total, torque});
+}
+
+void SurfaceContacts::apply(const ParticleArrays& particles) const {
+  for (const Contact& contact : contacts_) {
+    add_to(particles.force[contact.particle], contact.total);
+    add_to(particles.torque[contact.particle], contact.torque);
+  }
 }
 
 SurfaceSide SurfaceContacts::surface_side(const MovingSurface& surface) const {

@@ -1,7 +1,7 @@
 /// @file Contact of particles with the moving surface: who is near, forces, reactions, ledger. No LAMMPS.
 ///
 /// Order of calls: rebuild() whenever particles were reordered or either side has moved by its share of the margin;
-/// then per step begin_interval(), evaluate(), and end_interval() once velocities stand at t(n).
+/// then per step begin_interval(), evaluate(), apply(), and end_interval() once velocities stand at t(n).
 #pragma once
 
 #include <cstdint>
@@ -38,11 +38,14 @@ class SurfaceContacts {
   /// First half of the interval that begins at the last evaluation, with the velocity that the surface has in it.
   void begin_interval(const MovingSurface& surface, double dt);
 
-  /// Adds forces and torques to the particles and `weight` times the reactions to `nodal` (N s with weight in s).
+  /// Finds the forces and adds `weight` times the reactions to `nodal` (N s with weight in s).
   /// `dt` is the time (s) in which tangential springs have grown since the last evaluation; 0 at the start.
   /// Returns what went wrong, if anything: a particle that passed through the surface.
   [[nodiscard]] std::optional<std::string> evaluate(const ParticleArrays& particles, const MovingSurface& surface,
                                                     double dt, double weight, std::vector<surface::Vec2>& nodal);
+
+  /// Adds the forces and torques of the last evaluation to the particles. These must stand in the same order.
+  void apply(const ParticleArrays& particles) const;
 
   /// Second half of the interval that ends at this evaluation; velocities at t(n).
   void end_interval(const ParticleArrays& particles, const MovingSurface& surface, double dt);

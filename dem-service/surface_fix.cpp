@@ -91,6 +91,7 @@ void SurfaceFix::pre_force(int /*flags*/) {
 }
 
 void SurfaceFix::post_force(int /*flags*/) {
+  driver_->after_pair_forces(particles());
   sample_.reset();
   const std::optional<SweepPart> part = driver_->sample_at(step());
   if (!part) return;

@@ -9,6 +9,9 @@
 namespace grainstep::surface {
 namespace {
 
+/// Divided, not multiplied by the reciprocal, which rounds twice: the normal of a segment along an axis is exact.
+Vec2 over(const Vec2& a, double length) { return {{a[0] / length, a[1] / length}}; }
+
 [[noreturn]] void refuse(std::size_t segment, const std::string& what) {
   throw InputError("surface, segment " + std::to_string(segment) + ": " + what);
 }
@@ -47,7 +50,7 @@ Vec2 Polyline::tangent(std::uint32_t segment) const {
 
 Vec2 Polyline::unit_normal(std::uint32_t segment) const {
   const Vec2 t = tangent(segment);
-  return turned_left(t) * (1.0 / norm(t));
+  return over(turned_left(t), norm(t));
 }
 
 namespace {
@@ -78,12 +81,12 @@ ClosestPoint Polyline::at_vertex(const Vec2& p, std::uint32_t segment, bool at_e
   const double outward_length = norm(outward);
   constexpr double on_the_vertex = 1e-12;  // of the segment's length: no direction can be taken from round-off
   if (length <= on_the_vertex * norm(tangent(segment))) {
-    if (outward_length > on_the_vertex) found.normal = outward * (1.0 / outward_length);
+    if (outward_length > on_the_vertex) found.normal = over(outward, outward_length);
     return found;
   }
   const bool outside = neighbour == none || dot(apart, outward) >= 0.0;
   found.distance = outside ? length : -length;
-  found.normal = apart * (1.0 / found.distance);
+  found.normal = over(apart, found.distance);
   return found;
 }
 
