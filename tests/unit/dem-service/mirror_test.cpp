@@ -46,6 +46,7 @@ Bounce bounce(double restitution, double dt) {
     x[0] += dt * v[0];
     f[0] = 0.0;
     mirror.evaluate(particles);
+    mirror.apply(particles);
     v[0] += 0.5 * dt * f[0] / mass;
     mirror.end_interval(particles, dt);
     result.largest_way = std::max(result.largest_way, radius - x[0]);
