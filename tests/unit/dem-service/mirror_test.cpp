@@ -40,7 +40,8 @@ Bounce bounce(double restitution, double dt) {
       .owned = 1, .position = position, .velocity = velocity, .force = force, .radius = &radius, .mass = &mass};
   mirror.rebuild(particles);
   Bounce result;
-  for (int step = 0; step == 0 || x[0] < radius; ++step) {
+  constexpr int far_too_many = 100'000;  // a contact has a few thousand
+  for (int step = 0; (step == 0 || x[0] < radius) && step < far_too_many; ++step) {
     mirror.begin_interval(dt);
     v[0] += 0.5 * dt * f[0] / mass;
     x[0] += dt * v[0];
