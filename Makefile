@@ -4,13 +4,14 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages build demo test test-long sanitize bench docs clean
+.PHONY: help packages build demo test test-long verify sanitize bench docs clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
 	@echo "make test      build and run the quick tests"
 	@echo "make build     programs in $(BUILD)/bin"
 	@echo "make test-long the long tests: convergence, full scenes"
+	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
 	@echo "make bench     the speed table of bench/README.md"
 	@echo "make docs      regenerate the generated pages of docs/"
@@ -39,6 +40,15 @@ test: build
 
 test-long: build
 	@ctest --test-dir $(BUILD) -L long --output-on-failure -j 1
+
+# The page is written whatever the tests say: it shows what failed or did not run, and its exit code counts.
+VERIFICATION := $(abspath $(BUILD))/verification
+verify: build
+	@rm -rf $(VERIFICATION)
+	@mkdir -p $(VERIFICATION)
+	@GRAINSTEP_VERIFICATION_DIR=$(VERIFICATION) ctest --test-dir $(BUILD) -L verify -j $(JOBS) --output-on-failure \
+	  --output-junit $(VERIFICATION)/ctest.xml || true
+	@$(PYTHON) tools/verification-page --build $(BUILD)
 
 sanitize: packages
 	@test -f build-sanitize/build.ninja || cmake --preset sanitize

@@ -46,12 +46,16 @@ function(grainstep_program name)
 endfunction()
 
 # grainstep_test(name SOURCES ... DEPENDS ... LABELS ... [TIMEOUT s]): one GoogleTest program, one CTest entry per TEST.
-# LABELS long keeps it out of `make test`.
+# LABELS long keeps it out of `make test`; LABELS verify puts it on docs/verification.md and brings
+# support/verification_record.hpp.
 function(grainstep_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE grainstep_options ${arg_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  if(verify IN_LIST arg_LABELS)
+    target_link_libraries(${name} PRIVATE grainstep::verification_record)
+  endif()
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -61,8 +65,20 @@ function(grainstep_test name)
   set(properties ${CMAKE_CURRENT_BINARY_DIR}/${name}_properties.cmake)
   file(WRITE ${properties} "foreach(test IN LISTS ${name}_list)
   set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${arg_LABELS}\" TIMEOUT ${arg_TIMEOUT}
-    ENVIRONMENT \"OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1\")
+    ENVIRONMENT \"GRAINSTEP_TEST=\${test};OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1\")
 endforeach()
 ")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${properties})
+endfunction()
+
+# grainstep_verification_script(name SCRIPT file LABELS ... [TIMEOUT s]): a Python test that starts the built programs and
+# records with tests/verification/record.py.
+function(grainstep_verification_script name)
+  cmake_parse_arguments(arg "" "SCRIPT;TIMEOUT" "LABELS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/${arg_SCRIPT})
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} ENVIRONMENT
+    "GRAINSTEP_TEST=${name};GRAINSTEP_BIN=${PROJECT_BINARY_DIR}/bin;PYTHONDONTWRITEBYTECODE=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;PYTHONPATH=${PROJECT_SOURCE_DIR}/tests/verification:${PROJECT_SOURCE_DIR}/tests/system")
 endfunction()
