@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "orchestrator/background_observer.hpp"
 #include "orchestrator/build_info.hpp"
 #include "orchestrator/interrupted.hpp"
 #include "orchestrator/recorder.hpp"
@@ -54,7 +55,8 @@ class Run {
         Recorder::Context{
             .scene = p.scene, .groups = p.groups, .plan = *plan_, .surface = hub_.structure().ready.surface()},
         how_.directory, *file_, [this](std::uint64_t window) { progress_->tick(window); });
-    session_.run(*plan_, *recorder_);
+    background_.emplace(*recorder_);
+    session_.run(*plan_, *background_);
   }
 
   /// Runs go() and turns whatever ends it into an Ending; the other side is told.
@@ -108,6 +110,7 @@ class Run {
 
   // What was computed is kept, whatever the end; a first failure's reason is not hidden by that of writing.
   Ending keep(Ending ending) {
+    background_.reset();
     if (progress_) {
       progress_->finish();
     }
@@ -142,6 +145,7 @@ class Run {
   std::optional<results::ResultsFile> file_;
   std::optional<Progress> progress_;
   std::optional<Recorder> recorder_;
+  std::optional<BackgroundObserver> background_;  // works with all of the above: ends first
 };
 
 }  // namespace

@@ -181,7 +181,7 @@ void LockStep::on_snapshot(Peer& peer, const wire::Frame& frame) {
   peer.messages.take(frame, snapshot, side.next_snapshot);
   side.next_snapshot = next_due(side.next_snapshot, false);
   side.last_snapshot = side.next_snapshot > start_.windows();
-  observer_.snapshot(peer.role, snapshot);
+  observer_.snapshot(peer.role, std::move(snapshot));
 }
 
 }  // namespace grainstep::orchestrator

@@ -157,7 +157,7 @@ void Recorder::judge(std::uint64_t window, const Pending& row, const ledger::Bal
   }
 }
 
-void Recorder::snapshot(wire::Role side, const wire::Snapshot& snapshot) {
+void Recorder::snapshot(wire::Role side, wire::Snapshot snapshot) {
   snapshots_.add(side, time_of(snapshot.window()), snapshot);
 }
 

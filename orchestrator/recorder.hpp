@@ -47,11 +47,10 @@ class Recorder final : public StepObserver {
 
   void forces(const wire::Forces& forces) override;
   void report(wire::Role side, const wire::Report& report) override;
-  void snapshot(wire::Role side, const wire::Snapshot& snapshot) override;
+  void snapshot(wire::Role side, wire::Snapshot snapshot) override;
   void idle() override;
 
-  /// Writes whatever is left. Call at every end of a run.
-  void finish();
+  void finish() override;
 
   [[nodiscard]] const Findings& findings() const { return findings_; }
 

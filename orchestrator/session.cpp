@@ -123,6 +123,7 @@ void Session::run(const StepPlan& plan, StepObserver& observer) {
   hub_.send(hub_.structure(), start);
   hub_.send(hub_.impactor(), start);
   LockStep(hub_, observer, start, deadlines_.step_s).run();
+  observer.finish();
   complete();
 }
 

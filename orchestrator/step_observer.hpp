@@ -16,10 +16,13 @@ class StepObserver {
 
   virtual void forces(const wire::Forces& forces) = 0;
   virtual void report(wire::Role side, const wire::Report& report) = 0;
-  virtual void snapshot(wire::Role side, const wire::Snapshot& snapshot) = 0;
+  virtual void snapshot(wire::Role side, wire::Snapshot snapshot) = 0;
 
   /// Now and then, when messages have been dealt with: time to show progress, to write.
   virtual void idle() = 0;
+
+  /// The last message has passed by: returns when everything is dealt with and written.
+  virtual void finish() = 0;
 };
 
 }  // namespace grainstep::orchestrator

@@ -29,17 +29,19 @@ class Witness final : public StepObserver {
   void report(wire::Role side, const wire::Report& report) override {
     (side == wire::IMPACTOR ? impactor_ : structure_).push_back(report);
   }
-  void snapshot(wire::Role side, const wire::Snapshot& snapshot) override {
+  void snapshot(wire::Role side, wire::Snapshot snapshot) override {
     ++(side == wire::IMPACTOR ? particles_ : meshes_);
     EXPECT_GT(snapshot.position_size(), 0);
   }
   void idle() override {}
+  void finish() override { ++finished_; }
 
   std::vector<wire::Forces> forces_;
   std::vector<wire::Report> impactor_;
   std::vector<wire::Report> structure_;
   int particles_ = 0;
   int meshes_ = 0;
+  int finished_ = 0;
 };
 
 /// Both fakes in threads, a session in this one.
@@ -142,6 +144,7 @@ TEST(Session, RunsToTheEndAndSeesEverything) {
   EXPECT_EQ(w.impactor_.size(), w.structure_.size());
   EXPECT_EQ(w.particles_, w.meshes_);
   EXPECT_GE(w.meshes_, 4);
+  EXPECT_EQ(w.finished_, 1);
   EXPECT_EQ(stage.impactor_code_, 0);
   EXPECT_EQ(stage.structure_code_, 0);
 }
