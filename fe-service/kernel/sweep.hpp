@@ -35,7 +35,8 @@ GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Elastic& law, const
   const double x = batch.centre_x[l] - 0.5 * moved_x + (middle_a.x + middle_b.x) * (1.0 / 3.0);
   const double u = moved_x + (moved_a.x + moved_b.x) * (1.0 / 3.0);
   const Stress old = rotate(stress_of(state, i), m.half_tangent);
-  const Stress change = law.increment({m.xx, m.yy, m.gamma, measure.out_of_plane_increment(x, u)});
+  const StrainIncrement strain{m.xx, m.yy, m.gamma, measure.out_of_plane_increment(x, u)};
+  const Stress change = rotate_from_middle(law.increment(strain), m.half_tangent);
   const Stress trial = {old.xx + change.xx, old.yy + change.yy, old.xy + change.xy, old.zz + change.zz};
   set_stress(state, i, trial);
   flow.volume[i] = 0.5 * m.twice_area * measure.thickness(x);

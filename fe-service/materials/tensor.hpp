@@ -34,6 +34,14 @@ GS_ALWAYS_INLINE double von_mises(const Stress& stress) {
   return std::sqrt(1.5 * contract(s, s));
 }
 
+/// Turns by the angle whose double has this cosine and sine.
+GS_ALWAYS_INLINE Stress turned(const Stress& s, double cos2, double sin2) {
+  const double centre = 0.5 * (s.xx + s.yy);
+  const double radius = 0.5 * (s.xx - s.yy);
+  const double across = radius * cos2 - s.xy * sin2;
+  return {centre + across, centre - across, radius * sin2 + s.xy * cos2, s.zz};
+}
+
 /// Rotates by the angle theta about x3, given tan(theta/2) (Hughes and Winget 1980: R = (I - W/2)^-1 (I + W/2), which
 /// is an exact rotation whatever the spin increment W).
 GS_ALWAYS_INLINE Stress rotate(const Stress& s, double half_tangent) {
@@ -41,12 +49,15 @@ GS_ALWAYS_INLINE Stress rotate(const Stress& s, double half_tangent) {
   const double scale = 1.0 / (1.0 + t2);
   const double c = (1.0 - t2) * scale;
   const double d = 2.0 * half_tangent * scale;
-  const double cos2 = c * c - d * d;
-  const double sin2 = 2.0 * c * d;
-  const double centre = 0.5 * (s.xx + s.yy);
-  const double radius = 0.5 * (s.xx - s.yy);
-  const double turned = radius * cos2 - s.xy * sin2;
-  return {centre + turned, centre - turned, radius * sin2 + s.xy * cos2, s.zz};
+  return turned(s, c * c - d * d, 2.0 * c * d);
+}
+
+/// Rotates by theta/2: what has come up in the middle of a step turns with its second half only. Without it the update
+/// is of first order where a body spins while it strains.
+GS_ALWAYS_INLINE Stress rotate_from_middle(const Stress& s, double half_tangent) {
+  const double t2 = half_tangent * half_tangent;
+  const double scale = 1.0 / (1.0 + t2);
+  return turned(s, (1.0 - t2) * scale, 2.0 * half_tangent * scale);
 }
 
 }  // namespace grainstep::fe

@@ -3,9 +3,14 @@
 
 #include <cmath>
 
+#include "fe-service/layers.hpp"
 #include "fe-service/observe.hpp"
 
 namespace grainstep::fe::test {
+
+[[nodiscard]] inline Body body_of(const scene::Structure& structure) {
+  return {make_mesh(structure), make_layers(structure), 1e-3};
+}
 
 /// Calls action(nodes, index) for every node with mass.
 template <class Action>
@@ -26,6 +31,30 @@ void head_for(Body& body, double step, Target target) {
     nodes.v[i] = (goal.y - nodes.y[i]) / step;
   });
 }
+
+/// What keeps a body as it is told in its steps. The weight of the first kick is half a step: it starts at t = 0.
+class Stepper {
+ public:
+  Stepper(Body& body, double step) : body_(body), step_(step) {}
+
+  /// hold(body) corrects the velocities of the step: supports, symmetry, forces from outside.
+  template <class Hold>
+  SweepResult operator()(Hold hold) {
+    body_.kick(steps_ == 0 ? 0.5 * step_ : step_);
+    hold(body_);
+    body_.drift(step_);
+    ++steps_;
+    return body_.sweep(step_);
+  }
+
+  [[nodiscard]] double step() const { return step_; }
+  [[nodiscard]] double time() const { return step_ * steps_; }  ///< s, of positions and stresses
+
+ private:
+  Body& body_;
+  double step_;
+  int steps_ = 0;
+};
 
 /// Calls action(row, column, triangle) for all.
 template <class Action>

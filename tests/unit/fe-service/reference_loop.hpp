@@ -90,7 +90,10 @@ class ReferenceLoop {
     const Eigen::Matrix3d turn = (one - 0.5 * spin).inverse() * (one + 0.5 * spin);
     const Eigen::Matrix3d old = turn * t.stress * turn.transpose();
     const Elastic& elastic = elastic_part(body_->material(t.row));
-    t.stress = old + elastic.lambda * strain.trace() * one + 2.0 * elastic.mu * strain;
+    // The increment belongs to the middle of the step: it turns by half the angle.
+    const double half = 0.5 * std::atan2(turn(1, 0), turn(0, 0));
+    const Eigen::Matrix3d on = Eigen::AngleAxisd(half, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    t.stress = old + on * (elastic.lambda * strain.trace() * one + 2.0 * elastic.mu * strain) * on.transpose();
     if (const auto* steel = std::get_if<Dh36>(&body_->material(t.row))) flow(*steel, old, t, step, middle_area);
     const double area = gradients(end, grad);
     for (int n = 0; n < 3; ++n) {

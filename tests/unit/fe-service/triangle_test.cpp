@@ -51,6 +51,9 @@ TEST(Triangle, StressTurnsByTheAngle) {
     EXPECT_NEAR(found.yy, expected(1, 1), kRoundOff);
     EXPECT_NEAR(found.xy, expected(0, 1), kRoundOff);
     EXPECT_EQ(found.zz, stress.zz);
+    const Stress twice = rotate_from_middle(rotate_from_middle(stress, std::tan(0.5 * angle)), std::tan(0.5 * angle));
+    EXPECT_NEAR(twice.xx, expected(0, 0), kRoundOff);
+    EXPECT_NEAR(twice.xy, expected(0, 1), kRoundOff);
   }
 }
 
