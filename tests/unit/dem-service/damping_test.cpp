@@ -31,7 +31,8 @@ TEST(Damping, ElasticCollision) {
 }
 
 // A dashpot that sees the full approach speed in the first step takes a little too much: 0.6972, 0.6981, 0.6996 at
-// t_e/10, /20 and /100. That the engine does as this scheme says is for restitution_test.cpp to show.
+// t_e/10, /20 and /100. That the engine does as this scheme says is for tests/verification/dem/normal_impact.cpp to
+// show.
 TEST(Damping, TheContinuumConstantReturnsTooLittleInSteps) {
   const Collision collision = reference();
   const double gamma = continuum_damping(collision);
