@@ -155,6 +155,7 @@ void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   const double rate_scale = log_rate_scale(law, row.step);
   double min_twice_area[kBatchQuads];
   for (double& area : min_twice_area) area = 1e300;
+  double plastic_work[kBatchQuads] = {};
   row.plastic_work = 0.0;
   row.yielding = 0;
   row.unconverged = 0;
@@ -164,10 +165,11 @@ void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   for (int first = 0; first < row.quads; first += kBatchQuads) {
     load(row, first, batch);
     predict(batch, elasticity(law), measure, row.step, state, flow);
-    correct(law, state, flow, rate_scale, lanes_of(row, first), row);
+    correct(law, state, flow, rate_scale, lanes_of(row, first), plastic_work, row);
     add_forces(batch, measure, state, first, upper, lower, row, min_twice_area);
     state += kStateOf<Law> * kBatchTriangles;
   }
+  for (const double work : plastic_work) row.plastic_work += work;
   row.min_twice_area = min_twice_area[0];
   for (const double area : min_twice_area) row.min_twice_area = area < row.min_twice_area ? area : row.min_twice_area;
   assemble(row.upper_force.x, upper.left_x, upper.right_x, row.quads, row.first_row);

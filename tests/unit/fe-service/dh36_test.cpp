@@ -36,20 +36,24 @@ double bisect(const Dh36& law, double q_trial, double strain, double dt) {
 
 struct Solved {
   double increment;
+  double strength;
   int iterations;
 };
 
-/// The kernel's iteration, at one point.
-Solved solve(const Dh36& law, double q_trial, double strain, double dt) {
+/// The kernel's iteration, at one point; `last` is the increment of the step before, 0 if there was none.
+Solved solve(const Dh36& law, double q_trial, double strain, double dt, double last = 0.0) {
   const double strength = strain > 0.0 ? law.static_strength(strain) : law.yield_strength;
-  double s = return_start(law, q_trial, strain, strength);
+  const double largest = largest_increment(law, q_trial, strength);
+  double d = last > 0.0 ? std::min(last, largest) : first_increment(law, q_trial, strain, strength);
+  double s = std::log(d);
   for (int i = 1; i <= kMaxReturnIterations; ++i) {
-    const ReturnPoint point = return_step(law, q_trial, strain, std::log(dt * law.reference_rate), s);
-    if (std::abs(point.residual) <= kYieldTolerance * q_trial) return {point.increment, i};
-    s = point.next;
+    const ReturnPoint point = return_step(law, q_trial, strain, std::log(dt * law.reference_rate), s, d);
+    s += point.step;
+    d *= std::exp(point.step);
+    if (point.error <= kYieldTolerance * q_trial) return {d, point.static_strength, i};
   }
-  ADD_FAILURE() << "no convergence: q " << q_trial << ", strain " << strain << ", dt " << dt;
-  return {0.0, kMaxReturnIterations};
+  ADD_FAILURE() << "no convergence: q " << q_trial << ", strain " << strain << ", dt " << dt << ", last " << last;
+  return {0.0, 0.0, kMaxReturnIterations};
 }
 
 TEST(Dh36, PaperValues) {
@@ -63,20 +67,58 @@ TEST(Dh36, RateFactorIsOneBelowTheReferenceRate) {
   EXPECT_EQ(kSteel.rate_multiplier(-10.0), 1.0);
 }
 
-// A strain increment driven at a constant total rate, over seven decades of rate (below and above the reference rate),
-// from virgin to heavily worked material and from a grazing to a huge overshoot.
-TEST(RadialReturn, AgreesWithBisectionOverSevenDecadesOfRate) {
+/// What the tolerance of the residual is worth as plastic strain, and what bisection can tell apart.
+double strain_tolerance(const Dh36& law, double q_trial, double exact) {
+  return 1.01 * kYieldTolerance * q_trial / (3.0 * law.elastic.mu) + 1e-14 * exact;
+}
+
+/// Calls action(q_trial, strain, dt): fourteen decades of step length (below and above the reference rate), from virgin
+/// to heavily worked material and from a grazing to a huge overshoot.
+template <class Action>
+void for_all_states(Action action) {
   for (const double strain : {0.0, 1e-9, 1e-6, 1e-3, 0.05, 1.0}) {
     for (double dt = 1e-9; dt < 1e5; dt *= 10.0) {
       for (const double overshoot : {1e-8, 1e-6, 1e-4, 1e-2, 0.1, 1.0, 10.0}) {
-        const double q = flow_strength(kSteel, strain, 0.0) * (1.0 + overshoot);
-        const Solved found = solve(kSteel, q, strain, dt);
-        const double exact = bisect(kSteel, q, strain, dt);
-        // The residual's tolerance, seen as plastic strain.
-        const double tolerance = 1.01 * kYieldTolerance * q / (3.0 * kSteel.elastic.mu) + 1e-14 * exact;
-        EXPECT_NEAR(found.increment, exact, tolerance) << "strain " << strain << " dt " << dt << " over " << overshoot;
-        EXPECT_LE(found.iterations, 30);
+        action(flow_strength(kSteel, strain, 0.0) * (1.0 + overshoot), strain, dt);
       }
+    }
+  }
+}
+
+TEST(RadialReturn, AgreesWithBisection) {
+  for_all_states([](double q, double strain, double dt) {
+    const Solved found = solve(kSteel, q, strain, dt);
+    const double exact = bisect(kSteel, q, strain, dt);
+    EXPECT_NEAR(found.increment, exact, strain_tolerance(kSteel, q, exact))
+        << "q " << q << " strain " << strain << " dt " << dt;
+    const double strength = flow_strength(kSteel, strain + exact, 0.0);
+    EXPECT_NEAR(found.strength, strength, 2.0 * kYieldTolerance * strength);
+    EXPECT_LE(found.iterations, 20);
+  });
+}
+
+// Whatever the last step has left behind, even of another state altogether, is only a start.
+TEST(RadialReturn, AgreesWithBisectionFromAnyStart) {
+  for_all_states([](double q, double strain, double dt) {
+    const double exact = bisect(kSteel, q, strain, dt);
+    for (const double factor : {1e-12, 1e-6, 1e-2, 0.5, 0.999, 1.001, 2.0, 1e3, 1e9}) {
+      const Solved found = solve(kSteel, q, strain, dt, factor * exact);
+      EXPECT_NEAR(found.increment, exact, strain_tolerance(kSteel, q, exact))
+          << "q " << q << " strain " << strain << " dt " << dt << " start " << factor;
+      EXPECT_LE(found.iterations, 30);
+    }
+  });
+}
+
+// In a run strain rates change by a few per cent from one step to the next: one evaluation or two.
+TEST(RadialReturn, ANeighbouringStartNeedsTwoEvaluations) {
+  for (const double strain : {1e-4, 1e-2, 0.2}) {
+    for (const double increment : {1e-6, 1e-5, 1e-4}) {
+      const double dt = 1e-7;
+      const double q = flow_strength(kSteel, strain + increment, increment / dt) + 3.0 * kSteel.elastic.mu * increment;
+      EXPECT_LE(solve(kSteel, q, strain, dt, 1.1 * increment).iterations, 2);
+      EXPECT_LE(solve(kSteel, q, strain, dt, 0.9 * increment).iterations, 2);
+      EXPECT_LE(solve(kSteel, q, strain, dt, 1.0005 * increment).iterations, 1);
     }
   }
 }
