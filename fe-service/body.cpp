@@ -172,15 +172,23 @@ void Body::drift(double step) {
 }
 
 double Body::stable_step() const {
-  double fastest = 0.0;  // largest omega^2
+  double bound = 0.0;  // of omega^2
   for (int row = 0; row < mesh_.row_count(); ++row) {
-    const Elastic& law = elastic_part(material(row));
-    const double stiffness = kernels_->largest_stiffness(row_view(row), law);
-    const double triangle_mass = law.density * 0.25 * mesh_.rows[row].quad_area;  // of a unit thickness
-    fastest = std::max(fastest, 3.0 * stiffness / triangle_mass);
+    bound = kernels_->largest_frequency(row_view(row), elastic_part(material(row)), quad_mass(row), bound);
   }
-  return 2.0 / std::sqrt(fastest);
+  return 2.0 / std::sqrt(bound);
 }
+
+double Body::stable_step(int row, int column) const {
+  RowSweep view = row_view(row);
+  for (NodeRow* nodes : {&view.upper, &view.lower, &view.centre}) {
+    *nodes = {nodes->x + column, nodes->y + column, nodes->u + column, nodes->v + column};
+  }
+  view.quads = 1;
+  return 2.0 / std::sqrt(kernels_->largest_frequency(view, elastic_part(material(row)), quad_mass(row), 0.0));
+}
+
+double Body::quad_mass(int row) const { return elastic_part(material(row)).density * mesh_.rows[row].quad_area; }
 
 double Body::mass() const {
   double sum = 0.0;

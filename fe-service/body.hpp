@@ -43,9 +43,11 @@ class Body {
 
   void drift(double step);
 
-  /// 2/omega_max of the stiffest element in its present shape, s: an upper bound of omega_max of the assembled body, so
-  /// a lower one of its true limit. Plastic flow only softens.
+  /// 2/omega_max of the stiffest quad in its present shape with its share of the mass, s: an upper bound of omega_max of
+  /// the assembled body, so a lower one of its true limit. Plastic flow only softens.
   [[nodiscard]] double stable_step() const;
+  /// The same of one quad.
+  [[nodiscard]] double stable_step(int row, int column) const;
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const PlaneStrain& measure() const { return measure_; }
@@ -69,6 +71,8 @@ class Body {
 
  private:
   [[nodiscard]] RowSweep row_view(int row) const;
+  /// For a unit thickness, kg/m.
+  [[nodiscard]] double quad_mass(int row) const;
   void place_nodes();
   void share_mass();
   void create_state();

@@ -30,12 +30,15 @@ Found smallest(const Body& body, Measure measure) {
   return found;
 }
 
+std::string name_of_quad(const Body& body, const Found& element) {
+  const Vec2 centre = body.triangle(element.row, element.column, 0).centre;
+  return fmt::format("quad (column {}, row {}), layer {}, now at x1 = {:.6g} m, x2 = {:.6g} m", element.column,
+                     element.row, body.mesh().rows[element.row].layer, centre.x, centre.y);
+}
+
 std::string name_of(const Body& body, const Found& element) {
   static constexpr const char* kNames[] = {"lower", "right", "upper", "left"};
-  const auto nodes = body.triangle(element.row, element.column, element.triangle);
-  return fmt::format("the {} triangle of quad (column {}, row {}), layer {}, now at x1 = {:.6g} m, x2 = {:.6g} m",
-                     kNames[element.triangle], element.column, element.row, body.mesh().rows[element.row].layer,
-                     (nodes.a.x + nodes.b.x + nodes.centre.x) / 3.0, (nodes.a.y + nodes.b.y + nodes.centre.y) / 3.0);
+  return fmt::format("the {} triangle of {}", kNames[element.triangle], name_of_quad(body, element));
 }
 
 std::string when(const Progress& progress) {
@@ -72,18 +75,19 @@ void check_finite(const Body& body, const Progress& progress) {
 }
 
 void check_fixed_step(const Body& body, double step, const Progress& progress) {
-  const Found worst = smallest(body, [&body](int row, int column, int triangle) {
-    const auto nodes = body.triangle(row, column, triangle);
-    const Elastic& law = elastic_part(body.material(row));
-    const double stiffness = largest_stiffness(law, nodes.a - nodes.centre, nodes.b - nodes.centre);
-    return 2.0 / std::sqrt(12.0 * stiffness / (law.density * body.mesh().rows[row].quad_area));
-  });
+  Found worst;
+  for (int row = 0; row < body.mesh().row_count(); ++row) {
+    for (int column = 0; column < body.mesh().columns; ++column) {
+      const double value = body.stable_step(row, column);
+      if (value < worst.value) worst = {row, column, 0, value};
+    }
+  }
   if (worst.value >= step) return;
   throw NumericalError(
       fmt::format("unstable step: steps.structure fixes it at {:.4g} s, but {} allows {:.4g} s, {}; set "
                   "steps.structure to auto, which "
                   "takes smaller steps where needed, or fix a smaller one",
-                  step, name_of(body, worst), worst.value, when(progress)));
+                  step, name_of_quad(body, worst), worst.value, when(progress)));
 }
 
 void material_failed(const Body& body, const Progress& progress) {

@@ -19,7 +19,7 @@ void check_quality(const Body& body, double limit, const Progress& progress);
 /// Throws NumericalError naming the first node that is not a finite number.
 void check_finite(const Body& body, const Progress& progress);
 
-/// Throws NumericalError naming the element whose stable step is smaller than `step`, which the scene has fixed.
+/// Throws NumericalError naming the quad whose stable step is smaller than `step`, which the scene has fixed.
 void check_fixed_step(const Body& body, double step, const Progress& progress);
 
 /// Throws NumericalError: the material's local iteration did not converge.

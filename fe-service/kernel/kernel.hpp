@@ -47,13 +47,18 @@ constexpr std::size_t padded(int quads) {
 constexpr std::size_t scratch_row(int quads) { return padded(quads) + 2 * static_cast<std::size_t>(kBatchQuads); }
 constexpr std::size_t scratch_size(int quads) { return 8 * scratch_row(quads); }
 
+/// Of omega^2, relative.
+inline constexpr double kFrequencyTolerance = 1e-4;
+
 struct Kernels {
   const char* name;
   /// Stress at the end of the step and internal nodal forces from it, of one row.
   void (*sweep_elastic)(RowSweep&, const Elastic&, const PlaneStrain&);
   void (*sweep_dh36)(RowSweep&, const Dh36&, const PlaneStrain&);
-  /// Largest of largest_stiffness() in a row (upper, lower and centre positions, quads), Pa.
-  double (*largest_stiffness)(const RowSweep&, const Elastic&);
+  /// An upper bound of omega^2 of all quads of a row (upper, lower and centre positions, quads), 1/s^2, not below
+  /// `at_least` and, where above, within kFrequencyTolerance of the smallest there is. `quad_mass` is that of a unit
+  /// thickness, kg/m (kernel/frequency.hpp).
+  double (*largest_frequency)(const RowSweep&, const Elastic&, double quad_mass, double at_least);
   /// velocity += weight * force * inverse_mass
   void (*kick)(double* velocity, const double* force, const double* inverse_mass, double weight, std::size_t n);
   /// position += step * velocity

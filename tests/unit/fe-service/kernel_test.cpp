@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <random>
 
+#include "../../support/fe_matrices.hpp"
 #include "../../support/fe_scenes.hpp"
 #include "fe-service/body.hpp"
 #include "fe-service/layers.hpp"
@@ -118,20 +120,46 @@ TEST(Kernel, SameInputSameBits) {
   EXPECT_EQ(std::memcmp(first.corners.fy.data(), second.corners.fy.data(), bytes), 0);
 }
 
-TEST(Kernel, StableStepIsTheSmallestTriangles) {
-  for (const Kernels* kernels : available_kernels()) {
-    Body body = layered_body(11, *kernels);
-    prescribe(body, 0.0);
-    body.drift(1e-6);
-    double smallest = HUGE_VAL;
-    for (const auto& t : test::ReferenceLoop(body).triangles) {
-      const auto nodes = body.triangle(t.row, t.column, t.triangle);
-      const Elastic& law = elastic_part(body.material(t.row));
-      const double stiffness = largest_stiffness(law, nodes.a - nodes.centre, nodes.b - nodes.centre);
-      smallest = std::min(smallest, 2.0 / std::sqrt(3.0 * stiffness / (law.density * t.area0)));
+/// Random displacements of every node by up to `part` of an element's side.
+void distort(Body& body, double part, unsigned seed) {
+  std::mt19937 random(seed);
+  for (Nodes* nodes : {&body.corners, &body.centres}) {
+    for (std::size_t i = 0; i < nodes->x.size(); ++i) {
+      nodes->x[i] += part * 1e-3 * (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0);
+      nodes->y[i] += part * 1e-3 * (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0);
     }
-    EXPECT_NEAR(body.stable_step(), smallest, 1e-12 * smallest) << kernels->name;
   }
+}
+
+// Never above what the quads' eigenvalues allow, and as near as the tolerance says.
+TEST(Kernel, StableStepIsTheSmallestQuads) {
+  for (const Kernels* kernels : available_kernels()) {
+    for (const double part : {0.0, 0.05, 0.2}) {
+      Body body = layered_body(11, *kernels);
+      distort(body, part, 7);
+      double smallest = HUGE_VAL;
+      for (int row = 0; row < body.mesh().row_count(); ++row) {
+        for (int column = 0; column < body.mesh().columns; ++column) {
+          const double exact = 2.0 / std::sqrt(test::quad_frequency(body, row, column));
+          const double found = body.stable_step(row, column);
+          EXPECT_LE(found, exact * (1.0 + 1e-12)) << kernels->name;
+          EXPECT_GE(found, exact * (1.0 - 0.5 * kFrequencyTolerance)) << kernels->name;
+          smallest = std::min(smallest, exact);
+        }
+      }
+      EXPECT_LE(body.stable_step(), smallest * (1.0 + 1e-12)) << kernels->name;
+      EXPECT_GE(body.stable_step(), smallest * (1.0 - 0.5 * kFrequencyTolerance)) << kernels->name;
+    }
+  }
+}
+
+TEST(Kernel, ASquareAllowsAFifthMoreThanItsTriangles) {
+  const Body body = layered_body(8, *available_kernels().front());
+  const auto nodes = body.triangle(0, 0, 0);
+  const Elastic& law = elastic_part(body.material(0));
+  const double stiffness = largest_stiffness(law, nodes.a - nodes.centre, nodes.b - nodes.centre);
+  const double triangle = 2.0 / std::sqrt(3.0 * stiffness / (law.density * 0.25 * body.mesh().rows[0].quad_area));
+  EXPECT_NEAR(body.stable_step() / triangle, 1.22, 0.01);
 }
 
 }  // namespace
