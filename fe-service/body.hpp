@@ -43,8 +43,8 @@ class Body {
 
   void drift(double step);
 
-  /// 2/omega_max of the stiffest quad in its present shape with its share of the mass, s: an upper bound of omega_max of
-  /// the assembled body, so a lower one of its true limit. Plastic flow only softens.
+  /// 2/omega_max of the stiffest quad in its present shape with its share of the mass, s: an upper bound of omega_max
+  /// of the assembled body, so a lower one of its true limit. Plastic flow only softens.
   [[nodiscard]] double stable_step() const;
   /// The same of one quad.
   [[nodiscard]] double stable_step(int row, int column) const;

@@ -17,7 +17,7 @@
 
 namespace grainstep::fe {
 
-/// Part of the stable step that is taken. The element bound itself is safe (on a square mesh it is a fifth below the
+/// Part of the stable step that is taken. The bound by single quads is itself safe (on a square mesh it is 4% below the
 /// limit of the assembled body); the tenth left covers what elements shrink between two checks (kCheckInterval) and the
 /// damping-free limit of central differences, where round-off still grows.
 inline constexpr double kStepSafety = 0.9;
@@ -25,7 +25,7 @@ inline constexpr double kStepSafety = 0.9;
 /// with its preferred step is not refined at the first bent element.
 inline constexpr double kStepLimit = 0.97;
 /// Windows between two computations of the stable step. An element would have to lose 3% of its height in 10 steps of
-/// 1e-7 s, a strain rate of 3e4 1/s, to pass the limit in between, and another 20% to become unstable.
+/// 1e-7 s, a strain rate of 3e4 1/s, to pass the limit in between.
 inline constexpr std::uint64_t kCheckInterval = 10;
 
 class Deformable final : public WindowedStructure {

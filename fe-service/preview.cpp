@@ -12,7 +12,7 @@ namespace {
 
 // Measured with bench_fe_kernel (AVX-512, one core); a layer that may flow is taken to do so everywhere.
 constexpr double kElasticSeconds = 1.0 / 200e6;
-constexpr double kPlasticSeconds = 1.0 / 40e6;
+constexpr double kPlasticSeconds = 1.0 / 80e6;
 
 double seconds_per_element_step(const Mesh& mesh, const std::vector<Material>& layers) {
   double sum = 0.0;

@@ -51,8 +51,7 @@ GS_ALWAYS_INLINE void subtract_triangle(const Batch& batch, const Elastic& law, 
 }
 
 /// `mass`: of a quad, for a unit thickness, kg/m.
-GS_ALWAYS_INLINE void fill(const Batch& batch, const Elastic& law, double mass, double omega_squared,
-                           QuadMatrices& m) {
+GS_ALWAYS_INLINE void fill(const Batch& batch, const Elastic& law, double mass, double omega_squared, QuadMatrices& m) {
   const double share = omega_squared * mass / 6.0;
   for (int i = 0; i < 8; ++i) {
     for (int j = 0; j <= i; ++j) {
