@@ -54,6 +54,12 @@ void MovingSurface::move_to(double fraction) {
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = from_[i] + fraction * (to_[i] - from_[i]);
 }
 
+double MovingSurface::fastest() const {
+  double largest = 0.0;
+  for (const Vec2& v : velocity_) largest = std::max(largest, dot(v, v));
+  return std::sqrt(largest);
+}
+
 double MovingSurface::wandered() const {
   double largest = 0.0;
   for (std::size_t i = 0; i < to_.size(); ++i) {

@@ -27,6 +27,9 @@ class MovingSurface {
   [[nodiscard]] const surface::Polyline& now() const { return now_; }
   [[nodiscard]] const std::vector<surface::Vec2>& velocity() const { return velocity_; }
 
+  /// Speed (m/s) of the fastest node in the window in progress.
+  [[nodiscard]] double fastest() const;
+
   /// Largest distance (m) of a node, now and at the window's end, from where remember() was last called.
   [[nodiscard]] double wandered() const;
   void remember();

@@ -43,6 +43,16 @@ void StepDriver::check_speed(const ParticleArrays& particles) {
   }
 }
 
+// A surface that moves several radii in one step could leave a particle behind it that was never near it.
+void StepDriver::check_surface_speed() {
+  const double speed = surface_.fastest();
+  if (speed * settings_.dt <= model_.diameter / 2.0) return;
+  std::ostringstream text;
+  text << "a node of the surface moves at " << speed << " m/s, more than a particle's radius in one step of "
+       << settings_.dt << " s: the structure's computation is unstable, or steps.impactor is too large";
+  exchange_.fail(text.str());
+}
+
 void StepDriver::rebuild(const ParticleArrays& particles) {
   if (ended_) return;
   check_speed(particles);
@@ -57,6 +67,7 @@ void StepDriver::next_interval(std::uint64_t step, const ParticleArrays& particl
     surface_.arrive();
     ended_ = !exchange_.receive((step - 1) / steps + 1, surface_);
     if (ended_) return;
+    check_surface_speed();
   }
   contacts_.begin_interval(surface_, settings_.dt);
   if (mirror_) mirror_->begin_interval(settings_.dt);

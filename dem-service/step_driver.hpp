@@ -45,6 +45,7 @@ class StepDriver {
  private:
   void next_interval(std::uint64_t step, const ParticleArrays& particles);
   void check_speed(const ParticleArrays& particles);
+  void check_surface_speed();
   [[nodiscard]] participant::Due due_after(std::uint64_t step) const;
   void report(std::uint64_t window, std::uint64_t step, const ParticleArrays& particles);
 
