@@ -1,6 +1,6 @@
 /// @file What the coupling costs on the particles' side: the slug with our surface contact, mirror plane and ledger,
 /// against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that both see the same machine.
-///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions] [energy sampling]
+///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions]
 /// Times are CPU seconds of this process; the median of the repetitions counts.
 #include <algorithm>
 #include <cstdio>
@@ -81,7 +81,6 @@ int main(int argc, char** argv) {
   Job job;
   job.setup = rig::reference_setup();
   job.setup.set_mirror(true);
-  job.setup.mutable_impactor()->mutable_guards()->set_energy_sampling(static_cast<std::uint32_t>(argument(5, 10)));
   scene::Slug& slug = rig::slug_of(job.setup);
   slug.set_half_width(0.1);
   slug.set_height(0.3);

@@ -7,14 +7,12 @@ namespace {
 
 // Measured with bench_dem_step (bench/README.md says how) on one core of 2020s server hardware.
 constexpr double seconds_of_dynamics = 1.0e-7;  // per particle and step, mean over an event
-constexpr double seconds_of_sample = 0.6e-7;    // per particle, one sample of the dissipation between particles
 constexpr std::uint64_t bytes_of_program = 60'000'000;
 constexpr std::uint64_t bytes_per_particle = 1'500;  // LAMMPS arrays, neighbour lists with histories
 
 }  // namespace
 
-ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror,
-                        const scene::Guards& guards) {
+ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
   const SlugModel model = make_slug_model(impactor, symmetry, depth, mirror);
   ImpactorPreview preview;
   preview.particles = model.particles;
@@ -23,9 +21,7 @@ ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetr
   preview.stable_step = model.stable_step;
   preview.preferred_step = model.preferred_step;
   preview.memory_bytes = bytes_of_program + bytes_per_particle * model.particles;
-  const Sampling sampling = sampling_of(model, guards);
-  const double samples_per_step = 1.0 / (sampling.interval * sampling.stride);
-  preview.seconds_per_particle_step = seconds_of_dynamics + samples_per_step * seconds_of_sample;
+  preview.seconds_per_particle_step = seconds_of_dynamics;
   return preview;
 }
 

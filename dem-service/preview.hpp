@@ -19,6 +19,6 @@ struct ImpactorPreview {
 
 /// Throws InputError for what this impactor cannot compute, e.g. a solid fraction above what its packing reaches.
 [[nodiscard]] ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
-                                      bool mirror, const scene::Guards& guards);
+                                      bool mirror);
 
 }  // namespace grainstep::dem

@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "dem-service/packing.hpp"
+#include "dem-service/pair/style.hpp"
 #include "dem-service/surface_fix.hpp"
 
 namespace grainstep::dem {
@@ -104,11 +105,9 @@ void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) 
 }
 
 void SlugEngine::set_laws(const ContactLaw& pair, double dt, double skin) {
-  // Without friction there is no history to keep.
-  const bool slides_freely = pair.friction <= 0.0 || pair.tangential_stiffness <= 0.0;
-  session_.command(text_of("pair_style gran/hooke%s %.17g %.17g %.17g 0 %.17g 0", slides_freely ? "" : "/history",
-                           pair.normal_stiffness, pair.tangential_stiffness, pair.damping_rate,
-                           slides_freely ? 0.0 : pair.friction));
+  PairStyle::register_style(session_.lammps());
+  session_.command(text_of("pair_style %s %.17g %.17g %.17g %.17g", PairStyle::style_name, pair.normal_stiffness,
+                           pair.tangential_stiffness, pair.damping_rate, pair.friction));
   session_.command("pair_coeff * *");
   session_.command(text_of("neighbor %.17g bin", skin));
   session_.command(text_of("neigh_modify delay 0 every 1 check yes binsize %.17g", model_.diameter + skin));
@@ -135,16 +134,13 @@ void SlugEngine::run(const wire::Start& start, participant::ImpactorLink* link) 
   const ContactLaw pair = calibrated_pair_law(model_, dt);
   set_laws(pair, dt, skin);
 
-  const StepSettings settings{dt, skin / 2.0, sampling_of(model_, setup_.guards())};
+  const StepSettings settings{dt, skin / 2.0};
   MovingSurface surface(setup_.surface());
   RankExchange exchange(communicator_, link, surface.node_count());
   StepDriver driver(model_, start, settings, std::move(surface), exchange);
   SurfaceFix::register_style(session_.lammps());
   session_.command("fix surface all grainstep/surface");
-  const bool sticks = pair.friction > 0.0;
-  SurfaceFix::find(session_.lammps(), "surface")
-      .connect(driver, exchange,
-               {pair.normal_stiffness, sticks ? pair.tangential_stiffness : 0.0, model_.diameter, dt});
+  SurfaceFix::find(session_.lammps(), "surface").connect(driver, exchange);
   session_.command(text_of("run %llu post no", static_cast<unsigned long long>(steps)));
   exchange.finish();
 }

@@ -101,12 +101,4 @@ double largest_stable_step(const Collision& pair, double tangential_stiffness) {
   return 4.0 / (half_rate + std::sqrt(half_rate * half_rate + 4.0 * stiffest));
 }
 
-Sampling sampling_of(const SlugModel& model, const scene::Guards& guards) {
-  constexpr std::uint64_t particles_per_step = 200;
-  constexpr std::uint64_t many = 4000;
-  const std::uint64_t wanted = std::max<std::uint64_t>(1, guards.energy_sampling());
-  const std::uint64_t interval = std::clamp<std::uint64_t>(model.particles / particles_per_step, 1, wanted);
-  return {static_cast<std::uint32_t>(interval), wanted > 1 && model.particles > many ? 3U : 1U};
-}
-
 }  // namespace grainstep::dem

@@ -48,14 +48,4 @@ struct SlugModel {
 /// 60 degrees add up to three times that in any direction. docs/theory/particles.md has the derivation.
 [[nodiscard]] double largest_stable_step(const Collision& pair, double tangential_stiffness);
 
-/// How the dissipation between particles is sampled.
-struct Sampling {
-  std::uint32_t interval = 1;  ///< steps between two samples
-  std::uint32_t stride = 1;    ///< a sample takes one of so many particles
-};
-
-/// At most guards.energy_sampling steps apart. Small slugs are sampled more often, since few contacts make a noisy mean
-/// and cost nothing; of large ones every third particle is enough. With an energy_sampling of 1 the ledger is exact.
-[[nodiscard]] Sampling sampling_of(const SlugModel& model, const scene::Guards& guards);
-
 }  // namespace grainstep::dem

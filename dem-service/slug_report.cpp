@@ -23,25 +23,6 @@ void observe(wire::Report& report, const char* name, const char* unit, double va
 
 }  // namespace
 
-void PairDissipation::sample(std::uint64_t step, const PairSample& sample) {
-  steps_.push_back(step);
-  powers_.push_back(sample.dashpot_power);
-  powers_.push_back(sample.tangential_power);
-  last_ = sample;
-  largest_overlap_ = std::max(largest_overlap_, sample.largest_overlap);
-}
-
-void PairDissipation::integrate(MPI_Comm communicator, double dt) {
-  std::vector<double> all(powers_.size());
-  MPI_Reduce(powers_.data(), all.data(), static_cast<int>(powers_.size()), MPI_DOUBLE, MPI_SUM, 0, communicator);
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    dashpot_.add(steps_[i], all[2 * i], dt);
-    tangential_.add(steps_[i], all[2 * i + 1], dt);
-  }
-  steps_.clear();
-  powers_.clear();
-}
-
 void add_particles(const ParticleArrays& particles, ReportSums& sums, ReportMaxima& maxima) {
   sums.particles += particles.owned;
   double fastest = 0.0;
@@ -67,14 +48,13 @@ ReportMaxima largest(const ReportMaxima& maxima, MPI_Comm communicator) {
   return reduced(maxima, MPI_MAX, communicator);
 }
 
-void fill_report(const ReportSums& sums, const ReportMaxima& maxima, const PairDissipation& pairs,
-                 wire::Report& report) {
+void fill_report(const ReportSums& sums, const ReportMaxima& maxima, wire::Report& report) {
   const double tangential_stored = sums.pair_tangential + sums.surface_tangential;
   wire::Energy& energy = *report.mutable_energy();
   energy.set_kinetic(sums.kinetic);
   energy.set_elastic(sums.pair_normal + sums.surface_normal + sums.mirror_stored + tangential_stored);
-  energy.set_damping(pairs.damping() + sums.surface_damping + sums.mirror_damping);
-  energy.set_friction(pairs.tangential() + sums.surface_work_tangential - tangential_stored);
+  energy.set_damping(sums.pair_damping + sums.surface_damping + sums.mirror_damping);
+  energy.set_friction(sums.pair_work_tangential + sums.surface_work_tangential - tangential_stored);
   // The springs and dashpots of the contact are on this side of the interface: what the surface does to this side is
   // minus what is done to the surface. The mirror does no work at all: its springs and dashpots are the particles' own.
   energy.set_interface_work(-sums.work_on_surface);
@@ -91,7 +71,6 @@ void fill_report(const ReportSums& sums, const ReportMaxima& maxima, const PairD
   observe(report, "contacts_with_surface", "", sums.surface_contacts);
   observe(report, "work_on_surface", "J", sums.work_on_surface);
   observe(report, "work_on_particles", "J", sums.work_on_particles);
-  observe(report, "sampling_error", "J", pairs.error());
 }
 
 namespace {

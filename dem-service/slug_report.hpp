@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "dem-service/mirror_contacts.hpp"
-#include "dem-service/pair_sampler.hpp"
-#include "dem-service/sampled_integral.hpp"
+#include "dem-service/pair/contacts.hpp"
 #include "dem-service/surface_contacts.hpp"
 #include "grainstep/wire.pb.h"
 
@@ -18,6 +17,7 @@ struct ReportSums {
   double particles = 0.0;
   double kinetic = 0.0;
   double pair_normal = 0.0, pair_tangential = 0.0;  ///< J, stored
+  double pair_damping = 0.0, pair_work_tangential = 0.0;
   double surface_normal = 0.0, surface_tangential = 0.0, mirror_stored = 0.0;
   double surface_damping = 0.0, surface_work_tangential = 0.0, mirror_damping = 0.0;
   double work_on_particles = 0.0, work_on_surface = 0.0;
@@ -34,26 +34,6 @@ struct ReportMaxima {
   double spread = -1e300;  ///< m, largest x1 of a centre
 };
 
-/// Dissipation between particles: samples are kept on every rank and added up when a report asks for them.
-class PairDissipation {
- public:
-  void sample(std::uint64_t step, const PairSample& sample);
-  /// Collective: on rank 0 the integrals are then up to date.
-  void integrate(MPI_Comm communicator, double dt);
-  [[nodiscard]] double damping() const { return dashpot_.value(); }
-  [[nodiscard]] double tangential() const { return tangential_.value(); }
-  [[nodiscard]] double error() const { return std::hypot(dashpot_.error(), tangential_.error()); }
-  [[nodiscard]] const PairSample& last() const { return last_; }
-  [[nodiscard]] double take_largest_overlap() { return std::exchange(largest_overlap_, 0.0); }
-
- private:
-  std::vector<std::uint64_t> steps_;
-  std::vector<double> powers_;  ///< two per step
-  SampledIntegral dashpot_, tangential_;
-  PairSample last_;
-  double largest_overlap_ = 0.0;
-};
-
 /// Kinetic energy, momentum, extent: what needs only the particles. Velocities at t(n).
 void add_particles(const ParticleArrays& particles, ReportSums& sums, ReportMaxima& maxima);
 
@@ -61,8 +41,7 @@ void add_particles(const ParticleArrays& particles, ReportSums& sums, ReportMaxi
 [[nodiscard]] ReportSums summed(const ReportSums& sums, MPI_Comm communicator);
 [[nodiscard]] ReportMaxima largest(const ReportMaxima& maxima, MPI_Comm communicator);
 
-void fill_report(const ReportSums& sums, const ReportMaxima& maxima, const PairDissipation& pairs,
-                 wire::Report& report);
+void fill_report(const ReportSums& sums, const ReportMaxima& maxima, wire::Report& report);
 
 /// Collective; filled on rank 0, in the order of identities, so that it does not depend on the number of ranks.
 void gather_snapshot(const ParticleArrays& particles, MPI_Comm communicator, wire::Snapshot& snapshot);

@@ -96,24 +96,15 @@ participant::Due StepDriver::due_after(std::uint64_t step) const {
   return participant::due_at(start_, step / start_.impactor_steps());
 }
 
-std::optional<SweepPart> StepDriver::sample_at(std::uint64_t step) const {
-  if (ended_) return std::nullopt;
-  if (due_after(step).report) return SweepPart{};
-  const auto [interval, stride] = settings_.sampling;
-  if (step % interval != 0) return std::nullopt;
-  return SweepPart{static_cast<int>(stride), static_cast<int>(step / interval % stride)};
-}
-
-void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles,
-                             const std::optional<PairSample>& sample) {
+void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles, const PairEnergy& pairs) {
   if (ended_) return;
   const double interval = step == 0 ? 0.0 : settings_.dt;  // no interval ends at the start
   contacts_.end_interval(particles, surface_, interval);
   if (mirror_) mirror_->end_interval(particles, interval);
-  if (sample) pairs_.sample(step, *sample);
+  largest_pair_overlap_ = std::max(largest_pair_overlap_, pairs.largest_overlap);
   const participant::Due due = due_after(step);
   const std::uint64_t window = step / start_.impactor_steps();
-  if (due.report) report(window, step, particles);
+  if (due.report) report(window, step, particles, pairs);
   if (due.snapshot) {
     wire::Snapshot snapshot;
     snapshot.set_window(window);
@@ -122,13 +113,16 @@ void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles
   }
 }
 
-void StepDriver::report(std::uint64_t window, std::uint64_t step, const ParticleArrays& particles) {
+void StepDriver::report(std::uint64_t window, std::uint64_t step, const ParticleArrays& particles,
+                        const PairEnergy& pairs) {
   ReportSums sums;
   ReportMaxima maxima;
   add_particles(particles, sums, maxima);
   const InterfaceLedger& surface = contacts_.ledger();
-  sums.pair_normal = pairs_.last().stored_normal;
-  sums.pair_tangential = pairs_.last().stored_tangential;
+  sums.pair_normal = pairs.stored_normal;
+  sums.pair_tangential = pairs.stored_tangential;
+  sums.pair_damping = pairs.damping;
+  sums.pair_work_tangential = pairs.tangential;
   sums.surface_normal = contacts_.stored_normal();
   sums.surface_tangential = contacts_.stored_tangential();
   sums.surface_damping = surface.damping;
@@ -137,21 +131,20 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
   sums.work_on_surface = surface.work_on_surface;
   sums.surface_contacts = static_cast<double>(contacts_.count());
   std::copy_n(surface.impulse.c.begin(), 2, sums.surface_impulse);
-  maxima.overlap = std::max(pairs_.take_largest_overlap(), contacts_.take_largest_overlap());
+  maxima.overlap = std::max(std::exchange(largest_pair_overlap_, 0.0), contacts_.take_largest_overlap());
   if (mirror_) {
     sums.mirror_stored = mirror_->stored();
     sums.mirror_damping = mirror_->ledger().damping;
     std::copy_n(mirror_->ledger().impulse.c.begin(), 2, sums.mirror_impulse);
     maxima.overlap = std::max(maxima.overlap, mirror_->take_largest_overlap());
   }
-  pairs_.integrate(exchange_.communicator(), settings_.dt);
   const ReportSums all = summed(sums, exchange_.communicator());
   const ReportMaxima most = largest(maxima, exchange_.communicator());
   if (!exchange_.is_root()) return;
 
   wire::Report message;
   message.set_window(window);
-  fill_report(all, most, pairs_, message);
+  fill_report(all, most, message);
   message.mutable_timing()->set_steps(step);
   if (!std::isfinite(all.kinetic) || all.particles != static_cast<double>(model_.particles)) {
     std::ostringstream text;

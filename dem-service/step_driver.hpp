@@ -16,7 +16,6 @@ namespace grainstep::dem {
 struct StepSettings {
   double dt = 0.0;      ///< s
   double margin = 0.0;  ///< m a particle may move between two rebuilds
-  Sampling sampling;
 };
 
 class StepDriver {
@@ -32,12 +31,8 @@ class StepDriver {
   /// Adds the forces that before_pair_forces() has found.
   void after_pair_forces(const ParticleArrays& particles);
 
-  /// Which of this step's contacts between particles are to be sampled, if any: all of them where a report needs what
-  /// they store, else a part that wanders through the list.
-  [[nodiscard]] std::optional<SweepPart> sample_at(std::uint64_t step) const;
-
-  /// Velocities at t(n). `sample`: what sample_at(step) asked for.
-  void end_of_step(std::uint64_t step, const ParticleArrays& particles, const std::optional<PairSample>& sample);
+  /// Velocities at t(n). `pairs`: of this rank's contacts between particles.
+  void end_of_step(std::uint64_t step, const ParticleArrays& particles, const PairEnergy& pairs);
 
   /// No further step is wanted.
   [[nodiscard]] bool ended() const { return ended_; }
@@ -47,7 +42,7 @@ class StepDriver {
   void check_speed(const ParticleArrays& particles);
   void check_surface_speed();
   [[nodiscard]] participant::Due due_after(std::uint64_t step) const;
-  void report(std::uint64_t window, std::uint64_t step, const ParticleArrays& particles);
+  void report(std::uint64_t window, std::uint64_t step, const ParticleArrays& particles, const PairEnergy& pairs);
 
   SlugModel model_;
   wire::Start start_;
@@ -56,7 +51,7 @@ class StepDriver {
   RankExchange& exchange_;
   SurfaceContacts contacts_;
   std::optional<MirrorContacts> mirror_;
-  PairDissipation pairs_;
+  double largest_pair_overlap_ = 0.0;  ///< over the diameter, since the last report
   std::vector<surface::Vec2> nodal_;
   bool ended_ = false;
 };

@@ -1,8 +1,6 @@
 #include "dem-service/surface_fix.hpp"
 
 #include <lammps/atom.h>
-#include <lammps/comm.h>
-#include <lammps/force.h>
 #include <lammps/lammps.h>
 #include <lammps/modify.h>
 #include <lammps/timer.h>
@@ -11,6 +9,7 @@
 #include <algorithm>
 
 #include "base/assert.hpp"
+#include "dem-service/pair/style.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -38,17 +37,15 @@ SurfaceFix::SurfaceFix(LAMMPS_NS::LAMMPS* lammps, int argument_count, char** arg
   nevery = 1;
   create_attribute = 1;
   maxexchange = spring_values;
-  comm_forward = PairSampler::values_per_particle;
   SurfaceFix::grow_arrays(atom->nmax);
   atom->add_callback(LAMMPS_NS::Atom::GROW);
 }
 
 SurfaceFix::~SurfaceFix() { atom->delete_callback(id, LAMMPS_NS::Atom::GROW); }
 
-void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange, const PairSampler::Law& pair_law) {
+void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange) {
   driver_ = &driver;
   exchange_ = &exchange;
-  sampler_.emplace(pair_law);
 }
 
 int SurfaceFix::setmask() {
@@ -90,15 +87,7 @@ void SurfaceFix::pre_force(int /*flags*/) {
   guarded([&] { driver_->before_pair_forces(step(), particles()); });
 }
 
-void SurfaceFix::post_force(int /*flags*/) {
-  driver_->after_pair_forces(particles());
-  sample_.reset();
-  const std::optional<SweepPart> part = driver_->sample_at(step());
-  if (!part) return;
-  sampler_->synchronise(*atom);
-  comm->forward_comm_fix(this);
-  sample_ = sampler_->sweep(*force->pair, *atom, *part);
-}
+void SurfaceFix::post_force(int /*flags*/) { driver_->after_pair_forces(particles()); }
 
 void SurfaceFix::setup(int flags) {
   post_force(flags);
@@ -106,7 +95,7 @@ void SurfaceFix::setup(int flags) {
 }
 
 void SurfaceFix::end_of_step() {
-  guarded([&] { driver_->end_of_step(step(), particles(), sample_); });
+  guarded([&] { driver_->end_of_step(step(), particles(), PairStyle::find(*lmp).energy()); });
 }
 
 void SurfaceFix::grow_arrays(int capacity) { springs_.resize(static_cast<std::size_t>(capacity)); }
@@ -123,16 +112,6 @@ int SurfaceFix::pack_exchange(int i, double* buffer) {
 int SurfaceFix::unpack_exchange(int i, double* buffer) {
   std::copy_n(buffer, spring_values, springs_[i].c.begin());
   return spring_values;
-}
-
-int SurfaceFix::pack_forward_comm(int count, int* list, double* buffer, int /*periodic*/, int* /*shift*/) {
-  for (int k = 0; k < count; ++k)
-    buffer = std::copy_n(sampler_->values(list[k]), PairSampler::values_per_particle, buffer);
-  return count * PairSampler::values_per_particle;
-}
-
-void SurfaceFix::unpack_forward_comm(int count, int first, double* buffer) {
-  std::copy_n(buffer, count * PairSampler::values_per_particle, sampler_->values(first));
 }
 
 double SurfaceFix::memory_usage() { return static_cast<double>(springs_.capacity() * sizeof(surface::Vec3)); }

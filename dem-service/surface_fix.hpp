@@ -7,10 +7,8 @@
 
 #include <lammps/fix.h>
 
-#include <optional>
 #include <vector>
 
-#include "dem-service/pair_sampler.hpp"
 #include "dem-service/step_driver.hpp"
 
 namespace grainstep::dem {
@@ -32,7 +30,7 @@ class SurfaceFix : public LAMMPS_NS::Fix {
   SurfaceFix& operator=(SurfaceFix&&) = delete;
 
   /// Both outlive the run.
-  void connect(StepDriver& driver, RankExchange& exchange, const PairSampler::Law& pair_law);
+  void connect(StepDriver& driver, RankExchange& exchange);
 
   int setmask() override;
 
@@ -49,8 +47,6 @@ class SurfaceFix : public LAMMPS_NS::Fix {
   void set_arrays(int i) override;
   int pack_exchange(int i, double* buffer) override;
   int unpack_exchange(int i, double* buffer) override;
-  int pack_forward_comm(int count, int* list, double* buffer, int periodic, int* shift) override;
-  void unpack_forward_comm(int count, int first, double* buffer) override;
   double memory_usage() override;
 
  private:
@@ -62,8 +58,6 @@ class SurfaceFix : public LAMMPS_NS::Fix {
 
   StepDriver* driver_ = nullptr;
   RankExchange* exchange_ = nullptr;
-  std::optional<PairSampler> sampler_;
-  std::optional<PairSample> sample_;  ///< of the step in progress
   std::vector<surface::Vec3> springs_;
 };
 

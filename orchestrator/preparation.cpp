@@ -17,7 +17,7 @@ Preparation prepare(const RunOptions& options) {
     out.structure = fe::preview(scene.structure(), scene.symmetry(), scene.depth());
   }
   if (!is_external(wire::IMPACTOR, scene, options)) {
-    out.impactor = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror, scene.guards());
+    out.impactor = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
   }
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end, {out.impactor->stable_step, out.impactor->preferred_step},

@@ -18,7 +18,6 @@ constexpr std::uint64_t windows = 250;
 wire::Setup half_slug() {
   wire::Setup setup = reference_setup();
   setup.set_mirror(true);
-  setup.mutable_impactor()->mutable_guards()->set_energy_sampling(1);
   set_flat_surface(setup, 0.2, 60);
   return setup;
 }

@@ -30,7 +30,6 @@ wire::Setup reference_on_flat() {
   slug.mutable_surface_contact()->set_lever_arm(scene::SurfaceContact::LEVER_ARM_RADIUS);
   slug.set_half_width(0.1);
   slug.set_height(0.3);
-  setup.mutable_impactor()->mutable_guards()->set_energy_sampling(100);
   set_flat_surface(setup, 0.2, 60);
   return setup;
 }

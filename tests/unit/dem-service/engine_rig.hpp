@@ -35,7 +35,6 @@ inline wire::Setup reference_setup() {
   particle.set_restitution(0.7);
   particle.set_friction(0.7);
   slug.mutable_surface_contact()->set_lever_arm(scene::SurfaceContact::LEVER_ARM_CONTACT_POINT);
-  setup.mutable_impactor()->mutable_guards()->set_energy_sampling(1);
   return setup;
 }
 

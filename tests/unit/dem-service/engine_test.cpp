@@ -134,7 +134,6 @@ TEST(Engine, LookingDoesNotDisturb) {
   const ScriptedLink quiet = run_slug(setup, start);
   start.set_report_every(10);
   start.set_snapshot_every(50);
-  setup.mutable_impactor()->mutable_guards()->set_energy_sampling(7);
   const ScriptedLink watched = run_slug(setup, start);
   EXPECT_EQ(quiet.snapshots.back().SerializeAsString(), watched.snapshots.back().SerializeAsString());
 }

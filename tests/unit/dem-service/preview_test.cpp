@@ -13,9 +13,7 @@ namespace {
 scene::Impactor impactor() { return rig::reference_setup().impactor().impactor(); }
 
 ImpactorPreview preview_of(const scene::Impactor& what) {
-  scene::Guards guards;
-  guards.set_energy_sampling(10);
-  return preview(what, scene::SYMMETRY_PLANE_STRAIN, 1e-3, true, guards);
+  return preview(what, scene::SYMMETRY_PLANE_STRAIN, 1e-3, true);
 }
 
 TEST(Preview, ReferenceSlugOfThePaper) {

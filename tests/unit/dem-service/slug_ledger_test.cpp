@@ -23,7 +23,6 @@ double total(const wire::Energy& e) {
 struct Run {
   bool mirror = true;
   double steps_per_contact = 10.0;
-  std::uint32_t sampling = 1;
   std::uint32_t steps_per_window = 1;
   Motion motion = at_rest();
   double slug_times = 0.4;  // of H/v0
@@ -32,7 +31,6 @@ struct Run {
 ScriptedLink impact(const Run& what) {
   wire::Setup setup = reference_setup();
   setup.set_mirror(what.mirror);
-  setup.mutable_impactor()->mutable_guards()->set_energy_sampling(what.sampling);
   set_flat_surface(setup, 0.2, 60);
   const SlugModel model = model_of(setup);
   const double dt = model.contact_time / what.steps_per_contact;

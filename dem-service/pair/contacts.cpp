@@ -1,0 +1,230 @@
+#include "dem-service/pair/contacts.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace grainstep::dem {
+
+// Defined by the copies of kernel.cpp.
+extern const PairKernels pair_kernels_x86_64;
+extern const PairKernels pair_kernels_x86_64_v3;
+extern const PairKernels pair_kernels_x86_64_v4;
+
+namespace {
+
+constexpr std::uint32_t no_pair = std::numeric_limits<std::uint32_t>::max();
+
+std::vector<const PairKernels*> detect() {
+  std::vector<const PairKernels*> found;
+  __builtin_cpu_init();
+  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                  __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+                  __builtin_cpu_supports("avx512cd");
+  if (v4) found.push_back(&pair_kernels_x86_64_v4);
+  if (v3) found.push_back(&pair_kernels_x86_64_v3);
+  found.push_back(&pair_kernels_x86_64);
+  return found;
+}
+
+double sum_of(const double (&lanes)[batch_lanes]) {
+  double sum = 0.0;
+  for (const double lane : lanes) sum += lane;
+  return sum;
+}
+
+std::ptrdiff_t at(int particle) { return 3 * static_cast<std::ptrdiff_t>(particle); }
+
+template <int D>
+double squared_distance(const double* a, const double* b) {
+  double sum = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+  if constexpr (D == 3) sum += (a[2] - b[2]) * (a[2] - b[2]);
+  return sum;
+}
+
+}  // namespace
+
+const std::vector<const PairKernels*>& available_pair_kernels() {
+  static const std::vector<const PairKernels*> kernels = detect();
+  return kernels;
+}
+
+void PairContacts::Contacts::reserve(std::size_t contacts, int values) {
+  const std::size_t room = contacts + batch_lanes + 1;
+  if (pair.size() >= room) return;
+  const std::size_t capacity = room + room / 2;
+  pair.resize(capacity);
+  for (int h = 0; h < values; ++h) value[h].resize(capacity);
+}
+
+void PairContacts::Contacts::end(int values) {
+  pair[size] = no_pair;
+  for (int h = 0; h < values; ++h) value[h][size] = 0.0;
+}
+
+PairContacts::PairContacts(const PairLaw& law, const PairFeatures& features)
+    : law_(law),
+      features_(features),
+      layout_(history_layout(features.dimension, features.friction)),
+      kernel_(available_pair_kernels().front()->of(features)) {
+  clear(0.0);
+}
+
+void PairContacts::clear(double largest_radius) {
+  nearly_ = 4.0 * largest_radius * largest_radius;  // a power of two times a square: never below a pair's own (r+r)^2
+  pairs_.clear();
+  now_.size = 0;
+  now_.reserve(0, layout_.values);
+  now_.end(layout_.values);
+}
+
+void PairContacts::adopt(const double* values) {
+  now_.reserve(now_.size + 1, layout_.values);
+  now_.pair[now_.size] = static_cast<std::uint32_t>(pairs_.size() - 1);
+  for (int h = 0; h < layout_.values; ++h) now_.value[h][now_.size] = values[h];
+  ++now_.size;
+  now_.end(layout_.values);
+}
+
+void PairContacts::evaluate(const PairArrays& particles, double grown) {
+  const bool flat = features_.dimension == 2;
+  if (flat) {
+    features_.friction ? sweep<2, true>(particles, grown) : sweep<2, false>(particles, grown);
+  } else {
+    features_.friction ? sweep<3, true>(particles, grown) : sweep<3, false>(particles, grown);
+  }
+  energy_.damping += sum_of(sums_.damping);
+  energy_.tangential += sum_of(sums_.tangential);
+  energy_.stored_normal = sum_of(sums_.stored_normal);
+  energy_.stored_tangential = sum_of(sums_.stored_tangential);
+  energy_.largest_overlap = *std::max_element(std::begin(sums_.largest_overlap), std::end(sums_.largest_overlap));
+}
+
+/// Without a branch: whether a pair touches cannot be foretold.
+template <int D>
+void PairContacts::find_near(const double* position) {
+  near_.resize(pairs_.size() + 1);
+  std::uint32_t* near = near_.data();
+  const Pair* pairs = pairs_.data();
+  const auto count = static_cast<std::uint32_t>(pairs_.size());
+  const double nearly = nearly_;
+  std::size_t found = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    near[found] = k;
+    const double squared = squared_distance<D>(position + at(pairs[k].first), position + at(pairs[k].second));
+    found += squared < nearly ? 1U : 0U;
+  }
+  near_count_ = found;
+}
+
+template <int D, bool Friction>
+void PairContacts::sweep(const PairArrays& particles, double grown) {
+  constexpr int values = history_layout(D, Friction).values;
+  find_near<D>(particles.position);
+  std::swap(before_, now_);
+  now_.reserve(near_count_, values);
+  sums_ = {};
+  batch_.count = 0;
+  std::size_t old = 0;
+  std::size_t size = 0;
+  std::size_t flushed = 0;
+  for (std::size_t n = 0; n < near_count_; ++n) {
+    const std::uint32_t k = near_[n];
+    const auto [i, j] = pairs_[k];
+    const double* a = particles.position + at(i);
+    const double* b = particles.position + at(j);
+    const double reach = particles.radius[i] + particles.radius[j];
+    if (!(squared_distance<D>(a, b) < reach * reach)) continue;
+    while (before_.pair[old] < k) finish<D, Friction>(particles, grown, old++);
+    const bool lasting = before_.pair[old] == k;
+    const std::size_t source = lasting ? old : before_.size;  // what stands behind the last has no history
+    for (int h = 0; h < values; ++h) now_.value[h][size] = before_.value[h][source];
+    old += lasting ? 1 : 0;
+    now_.pair[size++] = k;
+
+    const int l = batch_.count++;
+    const double* v = particles.velocity + at(i);
+    const double* w = particles.velocity + at(j);
+    for (int c = 0; c < D; ++c) batch_.branch[c][l] = a[c] - b[c];
+    for (int c = 0; c < D; ++c) batch_.velocity[c][l] = v[c] - w[c];
+    if constexpr (Friction) {
+      const double* p = particles.spin + at(i);
+      const double* q = particles.spin + at(j);
+      for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
+        batch_.rolling[D == 2 ? 0 : c][l] = particles.radius[i] * p[c] + particles.radius[j] * q[c];
+      }
+    }
+    batch_.reach[l] = reach;
+    batch_.mass_product[l] = particles.mass[i] * particles.mass[j];
+    batch_.mass_sum[l] = particles.mass[i] + particles.mass[j];
+    if (batch_.count == batch_capacity) {
+      flush<D, Friction>(particles, grown, flushed);
+      flushed = size;
+    }
+  }
+  while (old < before_.size) finish<D, Friction>(particles, grown, old++);
+  flush<D, Friction>(particles, grown, flushed);
+  now_.size = size;
+  now_.end(values);
+}
+
+template <int D, bool Friction>
+void PairContacts::flush(const PairArrays& particles, double grown, std::size_t first_contact) {
+  constexpr HistoryLayout layout = history_layout(D, Friction);
+  const int count = batch_.count;
+  for (int l = count; l % batch_lanes != 0; ++l) {  // a pair that just touches, at rest: no force, no energy
+    for (int c = 0; c < D; ++c) batch_.branch[c][l] = c == 0 ? 1.0 : 0.0;
+    for (int c = 0; c < D; ++c) batch_.velocity[c][l] = batch_.rolling[c][l] = 0.0;
+    for (int h = 0; h < layout.values; ++h) now_.value[h][first_contact + static_cast<std::size_t>(l)] = 0.0;
+    batch_.reach[l] = batch_.mass_product[l] = batch_.mass_sum[l] = 1.0;
+  }
+  double* history[most_history_values] = {};
+  for (int h = 0; h < layout.values; ++h) history[h] = now_.value[h].data() + first_contact;
+  kernel_(law_, grown, batch_, history, sums_);
+  const std::uint32_t* numbers = now_.pair.data() + first_contact;
+  for (int l = 0; l < count; ++l) {
+    const auto [i, j] = pairs_[numbers[l]];
+    double* on_first = particles.force + at(i);
+    double* on_second = particles.force + at(j);
+    for (int c = 0; c < D; ++c) on_first[c] += batch_.force[c][l];
+    for (int c = 0; c < D; ++c) on_second[c] -= batch_.force[c][l];
+    if constexpr (Friction) {
+      for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
+        const double torque = history[layout.torque + (D == 2 ? 0 : c)][l];
+        particles.torque[at(i) + c] -= particles.radius[i] * torque;
+        particles.torque[at(j) + c] -= particles.radius[j] * torque;
+      }
+    }
+  }
+  batch_.count = 0;
+}
+
+/// A contact that has ended: its last forces still worked through half of the interval.
+template <int D, bool Friction>
+void PairContacts::finish(const PairArrays& particles, double grown, std::size_t contact) {
+  if (!features_.energy) return;
+  constexpr HistoryLayout layout = history_layout(D, Friction);
+  const auto [i, j] = pairs_[before_.pair[contact]];
+  const double half = 0.5 * grown;
+  double approach = 0.0;
+  double work = 0.0;
+  for (int c = 0; c < D; ++c) {
+    const double apart = particles.position[at(i) + c] - particles.position[at(j) + c];
+    const double rate = particles.velocity[at(i) + c] - particles.velocity[at(j) + c];
+    approach += (apart - grown * rate) * rate;
+    if constexpr (Friction) work += law_.tangential_stiffness * before_.value[layout.spring + c][contact] * rate;
+  }
+  sums_.damping[0] += half * before_.value[layout.dashpot][contact] * approach;
+  if constexpr (Friction) {
+    for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
+      const double rolling =
+          particles.radius[i] * particles.spin[at(i) + c] + particles.radius[j] * particles.spin[at(j) + c];
+      work += before_.value[layout.torque + (D == 2 ? 0 : c)][contact] * rolling;
+    }
+    sums_.tangential[0] += half * work;
+  }
+}
+
+}  // namespace grainstep::dem
