@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace grainstep::dem {
 namespace {
@@ -22,6 +23,20 @@ void observe(wire::Report& report, const char* name, const char* unit, double va
 }
 
 }  // namespace
+
+std::optional<std::string> DissipationGuard::look(const wire::Energy& energy) {
+  kinetic_ = std::max(kinetic_, energy.kinetic());
+  elastic_ = std::max(elastic_, energy.elastic());
+  damping_ = std::max(damping_, energy.damping());
+  friction_ = std::max(friction_, energy.friction());
+  const double fall = std::max(damping_ - energy.damping(), friction_ - energy.friction());
+  if (!(fall > 1e-3 * kinetic_ + 0.1 * elastic_)) return std::nullopt;
+  std::ostringstream text;
+  text << "what contacts have dissipated fell by " << fall << " J, of " << kinetic_
+       << " J at most in motion, but can only grow: the contact forces are wrong or the steps too coarse; lower "
+          "steps.impactor";
+  return text.str();
+}
 
 void add_particles(const ParticleArrays& particles, ReportSums& sums, ReportMaxima& maxima) {
   sums.particles += particles.owned;

@@ -153,6 +153,7 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
          << " J: the computation is unstable; lower steps.impactor";
     exchange_.fail(text.str());
   }
+  if (const auto wrong = dissipation_.look(message.energy())) exchange_.fail(*wrong);
   exchange_.send(message);
 }
 

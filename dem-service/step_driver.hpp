@@ -52,6 +52,7 @@ class StepDriver {
   SurfaceContacts contacts_;
   std::optional<MirrorContacts> mirror_;
   double largest_pair_overlap_ = 0.0;  ///< over the diameter, since the last report
+  DissipationGuard dissipation_;
   std::vector<surface::Vec2> nodal_;
   bool ended_ = false;
 };

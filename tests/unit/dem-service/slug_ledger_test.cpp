@@ -1,6 +1,7 @@
 // A slug against rigid walls: the ledgers close.
 #include <gtest/gtest.h>
 
+#include "dem-service/slug_report.hpp"
 #include "engine_rig.hpp"
 
 namespace grainstep::dem {
@@ -104,6 +105,25 @@ TEST(SlugLedger, EnergyCloses) {
     EXPECT_GT(last.elastic(), 0.0);
     EXPECT_LT(worst_drift(link), 0.01);  // 0.55% at t_e/10; its order: tests/convergence/dem_energy_order_test.cpp
   }
+}
+
+TEST(DissipationGuard, SpeaksUpWhenDissipationFalls) {
+  DissipationGuard guard;
+  wire::Energy energy;
+  energy.set_kinetic(100.0);
+  EXPECT_FALSE(guard.look(energy));
+  energy.set_kinetic(20.0);  // the largest energy is the measure
+  energy.set_friction(30.0);
+  energy.set_damping(50.0);
+  EXPECT_FALSE(guard.look(energy));
+  energy.set_friction(29.95);
+  EXPECT_FALSE(guard.look(energy));
+  energy.set_friction(29.8);
+  EXPECT_TRUE(guard.look(energy));
+  energy.set_friction(31.0);
+  EXPECT_FALSE(guard.look(energy));
+  energy.set_damping(49.0);
+  EXPECT_TRUE(guard.look(energy));
 }
 
 }  // namespace
