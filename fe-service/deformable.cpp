@@ -12,7 +12,10 @@
 namespace grainstep::fe {
 
 Deformable::Deformable(const scene::Structure& structure, const scene::Guards& guards, double depth)
-    : guards_(guards), body_(make_mesh(structure), make_layers(structure), depth), stable_step_(body_.stable_step()) {
+    : guards_(guards),
+      body_(make_mesh(structure), make_layers(structure), depth),
+      undeformed_step_(body_.stable_step()),
+      stable_step_(undeformed_step_) {
   for (const Corner c : body_.mesh().surface()) surface_.push_back(body_.mesh().corner(c));
   travelled_.resize(surface_.size());
 }
@@ -187,6 +190,9 @@ void Deformable::complete() {
   if (window_ % kCheckInterval != 0) return;
   check_finite(body_, progress());
   stable_step_ = body_.stable_step();
+  if (!(stable_step_ >= guards_.element_quality() * undeformed_step_)) {
+    check_slivers(body_, undeformed_step_, guards_.element_quality(), progress());
+  }
   adapt();
   last_good_time_ = progress().time;
 }

@@ -63,6 +63,7 @@ class Deformable final : public WindowedStructure {
   scene::Guards guards_;
   Body body_;
   std::vector<std::size_t> surface_;  ///< indices of corners
+  double undeformed_step_;            ///< s, stable step of the undeformed body
   double stable_step_;
 
   double window_length_ = 0.0;

@@ -46,6 +46,18 @@ std::string when(const Progress& progress) {
                      progress.step, progress.time, progress.last_good_time);
 }
 
+/// The quad with the smallest stable step, and that step.
+Found stiffest_quad(const Body& body) {
+  Found worst;
+  for (int row = 0; row < body.mesh().row_count(); ++row) {
+    for (int column = 0; column < body.mesh().columns; ++column) {
+      const double value = body.stable_step(row, column);
+      if (value < worst.value) worst = {row, column, 0, value};
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 void check_quality(const Body& body, double limit, const Progress& progress) {
@@ -74,14 +86,18 @@ void check_finite(const Body& body, const Progress& progress) {
   }
 }
 
+void check_slivers(const Body& body, double undeformed_step, double limit, const Progress& progress) {
+  const Found worst = stiffest_quad(body);
+  if (worst.value >= limit * undeformed_step) return;
+  throw NumericalError(fmt::format(
+      "element quality: {} is drawn out so thin that it allows {:.3g} of the undeformed mesh's step, below "
+      "guards.element_quality = {:g}, {}; the run would not end: refine the mesh (structure.mesh.refinement), or check "
+      "speed and stiffness of the impact",
+      name_of_quad(body, worst), worst.value / undeformed_step, limit, when(progress)));
+}
+
 void check_fixed_step(const Body& body, double step, const Progress& progress) {
-  Found worst;
-  for (int row = 0; row < body.mesh().row_count(); ++row) {
-    for (int column = 0; column < body.mesh().columns; ++column) {
-      const double value = body.stable_step(row, column);
-      if (value < worst.value) worst = {row, column, 0, value};
-    }
-  }
+  const Found worst = stiffest_quad(body);
   if (worst.value >= step) return;
   throw NumericalError(
       fmt::format("unstable step: steps.structure fixes it at {:.4g} s, but {} allows {:.4g} s, {}; set "

@@ -16,6 +16,10 @@ struct Progress {
 /// Throws NumericalError naming the worst element if its area over its undeformed area is below `limit`.
 void check_quality(const Body& body, double limit, const Progress& progress);
 
+/// Throws NumericalError naming the quad whose stable step over that of the undeformed mesh is below `limit`: plastic
+/// flow keeps the area of an element that it draws out into a needle, so that check_quality() does not see it.
+void check_slivers(const Body& body, double undeformed_step, double limit, const Progress& progress);
+
 /// Throws NumericalError naming the first node that is not a finite number.
 void check_finite(const Body& body, const Progress& progress);
 
