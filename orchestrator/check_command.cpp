@@ -43,19 +43,15 @@ void print_sides(const Preparation& p) {
 }
 
 void print_cost(const Preparation& p) {
-  if (!p.plan) {
+  const std::optional<Cost> cost = cost_of(p);
+  if (!cost) {
     return;
   }
-  const auto windows = static_cast<double>(p.plan->windows);
-  const double impactor = windows * p.plan->impactor_steps * static_cast<double>(p.impactor->particles) *
-                          p.impactor->seconds_per_particle_step;
-  const double structure = windows * p.plan->structure_steps * static_cast<double>(p.structure->elements) *
-                           p.structure->seconds_per_element_step;
   std::printf("memory                   %.0f MiB impactor, %.0f MiB structure\n",
               static_cast<double>(p.impactor->memory_bytes) / mebibyte,
               static_cast<double>(p.structure->memory_bytes) / mebibyte);
   std::printf("estimated time           %s impactor, %s structure, at the same time on a core each\n",
-              duration_text(impactor).c_str(), duration_text(structure).c_str());
+              duration_text(cost->impactor).c_str(), duration_text(cost->structure).c_str());
 }
 
 }  // namespace

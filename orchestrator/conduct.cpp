@@ -1,10 +1,10 @@
 #include "orchestrator/conduct.hpp"
 
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <optional>
 
+#include "base/processor_time.hpp"
 #include "orchestrator/background_observer.hpp"
 #include "orchestrator/build_info.hpp"
 #include "orchestrator/interrupted.hpp"
@@ -15,12 +15,6 @@
 
 namespace grainstep::orchestrator {
 namespace {
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<results::Text> texts(const Preparation& preparation) {
   const BuildInfo& build = build_info();
@@ -90,6 +84,7 @@ class Run {
     const std::chrono::duration<double> wall = transport::Clock::now() - started_;
     return summary({.status = status,
                     .reason = ending.reason,
+                    .exit_code = static_cast<int>(ending.code),
                     .scene = how_.preparation.scene,
                     .groups = how_.preparation.groups,
                     .plan = plan_,

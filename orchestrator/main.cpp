@@ -1,4 +1,4 @@
-/// @file grainstep: run, check, show.
+/// @file grainstep: run, check, show, study.
 #include <cstdio>
 
 #include "base/error.hpp"
@@ -6,6 +6,7 @@
 #include "orchestrator/options.hpp"
 #include "orchestrator/run_command.hpp"
 #include "orchestrator/show_command.hpp"
+#include "study/study_command.hpp"
 
 namespace {
 
@@ -17,6 +18,9 @@ int fail(grainstep::ExitCode code, const std::exception& error) {
 int act(const grainstep::orchestrator::CommandLine& line) {
   if (line.run) {
     return grainstep::orchestrator::run(*line.run);
+  }
+  if (line.study) {
+    return grainstep::study::study(*line.study);
   }
   if (line.check) {
     grainstep::orchestrator::check(*line.check);

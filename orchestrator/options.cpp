@@ -35,6 +35,23 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   return run;
 }
 
+CLI::App* add_study(CLI::App& app, StudyOptions& options) {
+  CLI::App* study = app.add_subcommand("study", "Compute a set of scenes: table, plots; resumes where it stopped");
+  study->add_option("study", options.study, "Study file (docs/user/study-reference.md)")->required();
+  study->add_option("--out", options.out, "Directory of the results (default: runs/studies/<name of the study>)");
+  study->add_option("--jobs", options.jobs, "Runs at a time (default: one per core)")->check(CLI::Range(1, 4096));
+  study->add_option("--ranks", options.ranks, "MPI ranks of every impactor")->check(CLI::Range(1, 4096));
+  study->add_flag("--long", options.include_long, "Points that are marked long, too");
+  study->add_option("--reuse", options.reuse, "Directory with runs of other studies, whose results are taken")
+      ->allow_extra_args(false);
+  study->add_flag("--repeat", options.repeat, "Compute again what is done, e.g. for quiet timings (with --jobs 1)");
+  study->add_flag("--retry", options.retry, "Compute again what failed numerically");
+  study->add_option("--page", options.page, "Write a page in Markdown, with the pictures in images/ beside it");
+  study->add_flag("--list", options.list, "Say what there is to do, and do nothing");
+  study->add_flag("--quiet", options.quiet, "Nothing on the terminal but errors");
+  return study;
+}
+
 }  // namespace
 
 CommandLine parse(int argc, const char* const* argv) {
@@ -51,6 +68,9 @@ CommandLine parse(int argc, const char* const* argv) {
   show->add_option("directory", show_options.directory, "Directory of a run")->required();
   show->add_flag("--json", show_options.json, "summary.json, or progress, as JSON");
 
+  StudyOptions study_options;
+  const CLI::App* study = add_study(app, study_options);
+
   CommandLine out;
   try {
     app.parse(argc, argv);
@@ -62,6 +82,8 @@ CommandLine parse(int argc, const char* const* argv) {
     out.run = run_options;
   } else if (check->parsed()) {
     out.check = check_options;
+  } else if (study->parsed()) {
+    out.study = study_options;
   } else {
     out.show = show_options;
   }

@@ -33,6 +33,20 @@ struct ShowOptions {
   bool json = false;
 };
 
+struct StudyOptions {
+  std::filesystem::path study;
+  std::filesystem::path out;                 ///< empty: runs/studies/<name of the study>
+  std::filesystem::path page;                ///< Markdown to write; empty: none
+  std::vector<std::filesystem::path> reuse;  ///< directories with runs of other studies
+  int jobs = 0;                              ///< runs at a time; 0: one per core
+  int ranks = 1;                             ///< of every impactor
+  bool include_long = false;
+  bool repeat = false;  ///< compute again what is done, e.g. for timings
+  bool retry = false;   ///< compute again what failed numerically
+  bool list = false;
+  bool quiet = false;
+};
+
 /// One of the commands with its options; `exit_code` instead where the command line was answered already (--help) or
 /// cannot be used (one message was written).
 struct CommandLine {
@@ -40,6 +54,7 @@ struct CommandLine {
   std::optional<RunOptions> run;
   std::optional<SceneOptions> check;
   std::optional<ShowOptions> show;
+  std::optional<StudyOptions> study;
 };
 
 [[nodiscard]] CommandLine parse(int argc, const char* const* argv);

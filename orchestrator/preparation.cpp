@@ -6,8 +6,12 @@
 namespace grainstep::orchestrator {
 
 Preparation prepare(const RunOptions& options) {
+  return prepare(scene::load_scene(options.scene.scene, options.scene.set), options);
+}
+
+Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   Preparation out;
-  out.scene = scene::load_scene(options.scene.scene, options.scene.set);
+  out.scene = std::move(loaded);
   out.hash = scene::scene_hash(out.scene);
   out.yaml = scene::to_yaml(out.scene);
   out.groups = scene::groups(out.scene);
@@ -24,6 +28,17 @@ Preparation prepare(const RunOptions& options) {
                           {out.structure->stable_step, out.structure->preferred_step});
   }
   return out;
+}
+
+std::optional<Cost> cost_of(const Preparation& p) {
+  if (!p.plan) {
+    return std::nullopt;
+  }
+  const auto windows = static_cast<double>(p.plan->windows);
+  return Cost{.impactor = windows * p.plan->impactor_steps * static_cast<double>(p.impactor->particles) *
+                          p.impactor->seconds_per_particle_step,
+              .structure = windows * p.plan->structure_steps * static_cast<double>(p.structure->elements) *
+                           p.structure->seconds_per_element_step};
 }
 
 }  // namespace grainstep::orchestrator

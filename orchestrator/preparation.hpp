@@ -28,4 +28,14 @@ struct Preparation {
 /// external.
 [[nodiscard]] Preparation prepare(const RunOptions& options);
 
+/// The same for a scene that is loaded already; `options.scene` is not looked at.
+[[nodiscard]] Preparation prepare(scene::Scene scene, const RunOptions& options);
+
+/// Seconds that both sides compute, each on a core of its own; nothing where an external side does not say.
+struct Cost {
+  double impactor = 0.0;
+  double structure = 0.0;
+};
+[[nodiscard]] std::optional<Cost> cost_of(const Preparation& preparation);
+
 }  // namespace grainstep::orchestrator

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scene/load.hpp"
+
 namespace grainstep::orchestrator {
 namespace {
 
@@ -39,12 +41,19 @@ Json split_of(const SummaryInput& in) {
 
 }  // namespace
 
+std::string hash_text(std::uint64_t hash) {
+  char out[17];
+  std::snprintf(out, sizeof out, "%016llx", static_cast<unsigned long long>(hash));
+  return out;
+}
+
 Json summary(const SummaryInput& in) {
   const scene::Groups& g = in.groups;
   const Findings& f = in.findings;
   Json out;
   out["status"] = in.status;
   out["reason"] = in.reason;
+  out["exit_code"] = in.exit_code;
   out["impulse_number"] = number(g.impulse_number);
   out["areal_mass_ratio"] = number(g.areal_mass_ratio);
   out["loading_time_ratio"] = number(g.loading_time_ratio);
@@ -65,6 +74,9 @@ Json summary(const SummaryInput& in) {
   out["structure_step"] = in.plan ? number(in.plan->structure_step) : Json(nullptr);
   out["wall_seconds"] = in.wall_seconds;
   out["wall_split"] = split_of(in);
+  out["processor_seconds"] = in.impactor_timing.processor() + in.structure_timing.processor() + in.orchestrator_seconds;
+  out["scene_key"] = hash_text(scene::essence_hash(in.scene));
+  out["results_version"] = results_version;
   return out;
 }
 

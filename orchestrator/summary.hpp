@@ -13,6 +13,7 @@ namespace grainstep::orchestrator {
 struct SummaryInput {
   std::string status;  ///< done, failed, interrupted
   std::string reason;
+  int exit_code = 0;
   const scene::Scene& scene;
   const scene::Groups& groups;
   std::optional<StepPlan> plan;  ///< nullopt: the run did not come that far
@@ -24,6 +25,14 @@ struct SummaryInput {
   double wall_seconds = 0.0;
   double orchestrator_seconds = 0.0;  ///< processor time of the orchestrator itself
 };
+
+/// What a scene's results depend on besides the scene. Raise it with every change after which some scene gives other
+/// numbers than before (a law, a scheme, a default of the code's own): studies then compute again what they have
+/// (docs/decisions/0009-studies.md). Restructuring, speed and new kinds of scenes leave it alone.
+inline constexpr int results_version = 1;
+
+/// A hash as summary.json holds it: 16 hexadecimal digits, because a JSON number has no 64 bits.
+[[nodiscard]] std::string hash_text(std::uint64_t hash);
 
 /// Numbers that the run did not reach are null.
 [[nodiscard]] nlohmann::ordered_json summary(const SummaryInput& input);

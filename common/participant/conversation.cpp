@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/processor_time.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -56,6 +57,7 @@ bool Conversation::wait_for_start(wire::Start& start) {
            std::to_string(start.windows()));
   }
   started_ = transport::Clock::now();
+  processor_at_start_ = processor_seconds();
   return true;
 }
 
@@ -93,6 +95,7 @@ void Conversation::fill_timing(wire::Timing& timing) const {
   timing.set_wait(waited);
   timing.set_compute(started ? seconds_of(transport::Clock::now() - started_) - waited : 0.0);
   timing.set_steps(steps_);
+  timing.set_processor(started ? processor_seconds() - processor_at_start_ : 0.0);
 }
 
 void Conversation::finish() {

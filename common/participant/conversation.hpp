@@ -55,6 +55,7 @@ class Conversation {
   wire::MessageChannel messages_;
   ServeOptions options_;
   transport::Clock::time_point started_{};
+  double processor_at_start_ = 0.0;
   transport::Clock::duration waited_{};
   std::uint64_t steps_ = 0;  // as last reported by the backend
   bool stopped_ = false;

@@ -28,7 +28,7 @@ struct ServeOptions {
 /// Runs the whole conversation and returns the program's exit code (base/error.hpp). Never throws: InputError,
 /// NumericalError and other exceptions of the backend are sent as Error and written as one line; a lost or
 /// misbehaving orchestrator ends with exit code 4. Destroy the channel before the process ends: that is what delivers
-/// the last message. Timing.compute and Timing.wait are filled in here; the backend fills in Timing.steps of its
+/// the last message. All of Timing but Timing.steps is filled in here; the backend fills in Timing.steps of its
 /// reports.
 [[nodiscard]] int serve_structure(transport::Channel& channel, StructureBackend& backend,
                                   const ServeOptions& options = {});

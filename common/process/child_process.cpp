@@ -188,6 +188,12 @@ bool ChildProcess::wait(std::chrono::milliseconds longest) {
   }
 }
 
+void ChildProcess::ask_to_end() const noexcept {
+  if (!status_ && id_ > 0) {
+    signal_group(SIGTERM);
+  }
+}
+
 void ChildProcess::terminate(std::chrono::milliseconds grace) {
   if (status_ || id_ < 0) {
     return;

@@ -43,6 +43,8 @@ class ChildProcess {
   /// Waits for its end; false when it still runs after that time.
   [[nodiscard]] bool wait(std::chrono::milliseconds longest);
 
+  /// SIGTERM to the group, without waiting.
+  void ask_to_end() const noexcept;
   /// SIGTERM to the group, SIGKILL to what is left of it after `grace`; returns when the child is reaped.
   void terminate(std::chrono::milliseconds grace);
 

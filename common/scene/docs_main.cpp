@@ -1,4 +1,4 @@
-/// @file grainstep-docs DIR: writes the documents that are made from the scene's declaration.
+/// @file grainstep-docs DIR: writes the documents that are made from the declarations of scenes and studies.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -24,7 +24,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  const bool written = write(folder / "scene-reference.md", grainstep::scene::reference_markdown()) &&
-                       write(folder / "scene.schema.json", grainstep::scene::json_schema());
+  namespace scene = grainstep::scene;
+  const auto& study = *grainstep::study::Study::descriptor();
+  const bool written = write(folder / "scene-reference.md", scene::reference_markdown()) &&
+                       write(folder / "scene.schema.json", scene::json_schema()) &&
+                       write(folder / "study-reference.md", scene::reference_markdown(study, scene::study_head())) &&
+                       write(folder / "study.schema.json", scene::json_schema(study));
   return written ? 0 : 2;
 }

@@ -12,15 +12,19 @@
 #include <string>
 
 #include "grainstep/scene.pb.h"
+#include "scene/overrides.hpp"
 
 namespace grainstep::scene {
 
 /// Reads `path` with what it includes, applies `overrides` ("a.b.0.c=VALUE") in order, and fills `message`, whose type
 /// is declared with options.proto. `message` is unchanged if an exception is thrown.
-void load(const std::filesystem::path& path, std::span<const std::string> overrides,
-          google::protobuf::Message& message);
+/// Returns what was read, which knows where everything was written (origin_of).
+Tree load(const std::filesystem::path& path, std::span<const Override> overrides, google::protobuf::Message& message);
 
 /// The same for a scene, and the rules between its keys (rules.hpp).
+[[nodiscard]] Scene load_scene(const std::filesystem::path& path, std::span<const Override> overrides);
+
+/// With the overrides of a command line.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
 /// Everything `message` says, defaults included, in SI with units. Deterministic; load() gives the same message again.
@@ -28,5 +32,9 @@ void load(const std::filesystem::path& path, std::span<const std::string> overri
 
 /// XXH3 of the serialised scene: two participants with the same hash compute the same scene.
 [[nodiscard]] std::uint64_t scene_hash(const Scene& scene);
+
+/// XXH3 of what sets the scene apart: without its title and without keys at their default. Unlike scene_hash() it stays
+/// the same when a later version of the program knows more keys, so that finished runs are recognised.
+[[nodiscard]] std::uint64_t essence_hash(const Scene& scene);
 
 }  // namespace grainstep::scene

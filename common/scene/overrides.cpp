@@ -10,8 +10,6 @@
 namespace grainstep::scene {
 namespace {
 
-const Origin command_line{"--set", 0};
-
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> names{""};
   for (const char c : path) {
@@ -32,12 +30,12 @@ std::optional<std::size_t> item_number(const std::string& name) {
 }
 
 /// The place that `name` has in `parent`, made if it is not there.
-Tree& descend(Tree& parent, const std::string& name) {
+Tree& descend(Tree& parent, const std::string& name, const Origin& origin) {
   const auto index = item_number(name);
   if (parent.kind == Tree::Kind::null) parent.kind = index == 0 ? Tree::Kind::list : Tree::Kind::map;
   if (parent.kind == Tree::Kind::map) {
     const auto [place, inserted] = parent.members.try_emplace(name);
-    if (inserted) place->second.origin = command_line;
+    if (inserted) place->second.origin = origin;
     return place->second;
   }
   if (parent.kind != Tree::Kind::list) throw InputError("what should hold '" + name + "' is " + parent.description());
@@ -47,7 +45,7 @@ Tree& descend(Tree& parent, const std::string& name) {
   }
   if (*index == parent.items.size()) {
     parent.items.emplace_back();
-    parent.items.back().origin = command_line;
+    parent.items.back().origin = origin;
   }
   return parent.items[*index];
 }
@@ -60,23 +58,24 @@ void set_origin(Tree& tree, const Origin& origin) {
 
 }  // namespace
 
-void apply_override(Tree& root, const std::string& text, Problems& problems) {
+void apply_override(Tree& root, const Override& override, Problems& problems) {
+  const auto& [text, origin] = override;
   const auto equals = text.find('=');
   const std::string path = text.substr(0, equals);
   const auto names = split_path(path);
   try {
     if (equals == std::string::npos) throw InputError("expected PATH=VALUE, for example impactor.slug.speed='300 m/s'");
     if (names.front() == "include") throw InputError("a file is included by a file only");
-    Tree value = parse_yaml(text.substr(equals + 1), command_line.source, problems);
-    set_origin(value, command_line);
+    Tree value = parse_yaml(text.substr(equals + 1), origin.source, problems);
+    set_origin(value, origin);
     Tree* place = &root;
     for (const auto& name : names) {
       if (name.empty()) throw InputError("a name is missing in this path");
-      place = &descend(*place, name);
+      place = &descend(*place, name, origin);
     }
     merge(*place, std::move(value));
   } catch (const InputError& error) {
-    problems.add(command_line, path, error.what());
+    problems.add(origin, path, error.what());
   }
 }
 

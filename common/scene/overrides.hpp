@@ -1,4 +1,4 @@
-/// @file --set PATH=VALUE
+/// @file PATH=VALUE: of --set on the command line, or of a `set:` list in a study.
 #pragma once
 
 #include <string>
@@ -8,8 +8,13 @@
 
 namespace grainstep::scene {
 
+struct Override {
+  std::string text;
+  Origin origin{"--set", 0};  ///< for messages
+};
+
 /// Applies "a.b.0.c=VALUE" to `root`: VALUE is YAML, a number among the names counts the items of a list (one past the
 /// last appends), maps merge and everything else is replaced.
-void apply_override(Tree& root, const std::string& text, Problems& problems);
+void apply_override(Tree& root, const Override& override, Problems& problems);
 
 }  // namespace grainstep::scene

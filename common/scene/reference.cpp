@@ -81,17 +81,29 @@ std::string section_text(const std::string& path, const Descriptor& message) {
 
 }  // namespace
 
-std::string reference_markdown(const Descriptor& root) {
-  std::string text =
-      "# Scene reference\n\n"
-      "<!-- Written by grainstep-docs from proto/grainstep/" +
-      root.file()->name().substr(root.file()->name().rfind('/') + 1) +
-      "; do not edit. -->\n\n"
-      "Every key that a scene may hold. A number may carry any unit that converts to the SI unit given here (`200 "
-      "um`,\n"
-      "`7300 kN/m`); a bare number is SI. Symbols are those of [the notation table](../theory/notation.md). How "
-      "scenes\n"
-      "are written, included and overridden: [writing a scene](writing-a-scene.md).\n\n";
+const ReferenceHead& scene_head() {
+  static const ReferenceHead head{"Scene reference",
+                                  "Every key that a scene may hold. A number may carry any unit that converts to the "
+                                  "SI unit given here (`200 um`,\n"
+                                  "`7300 kN/m`); a bare number is SI. Symbols are those of [the notation "
+                                  "table](../theory/notation.md). How scenes\n"
+                                  "are written, included and overridden: [writing a scene](writing-a-scene.md).\n\n"};
+  return head;
+}
+
+const ReferenceHead& study_head() {
+  static const ReferenceHead head{
+      "Study reference",
+      "Every key that a study file may hold; [studies](studies.md) says what is made of them. Files are read as scenes "
+      "are\n"
+      "([writing a scene](writing-a-scene.md)): `include` works, unknown keys are errors.\n\n"};
+  return head;
+}
+
+std::string reference_markdown(const Descriptor& root, const ReferenceHead& head) {
+  std::string text = "# " + head.heading + "\n\n<!-- Written by grainstep-docs from proto/grainstep/" +
+                     root.file()->name().substr(root.file()->name().rfind('/') + 1) + "; do not edit. -->\n\n" +
+                     head.introduction;
   std::deque<std::pair<std::string, const Descriptor*>> open{{"", &root}};
   while (!open.empty()) {
     const auto [path, message] = open.front();

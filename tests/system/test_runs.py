@@ -5,10 +5,11 @@ import h5py
 import numpy as np
 from runs import BIN, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile, until
 
-KEYS = ["status", "reason", "impulse_number", "areal_mass_ratio", "loading_time_ratio", "peak_deflection",
+KEYS = ["status", "reason", "exit_code", "impulse_number", "areal_mass_ratio", "loading_time_ratio", "peak_deflection",
         "peak_deflection_time", "final_time", "transmitted_impulse", "early_pressure", "peak_core_compression",
         "peak_core_compression_time", "energy_drift", "momentum_error", "particles", "elements", "impactor_steps",
-        "structure_steps", "impactor_step", "structure_step", "wall_seconds", "wall_split"]
+        "structure_steps", "impactor_step", "structure_step", "wall_seconds", "wall_split",
+        "processor_seconds", "scene_key", "results_version"]
 SPLIT = ["impactor_compute", "impactor_wait", "structure_compute", "structure_wait", "orchestrator"]
 ROUND_OFF = 1e-10  # of momentum, over some thousand steps
 

@@ -30,6 +30,13 @@ TEST(Generated, SchemaIsFresh) {
   EXPECT_TRUE(committed("scene.schema.json") == json_schema()) << "docs/user/scene.schema.json " << advice;
 }
 
+TEST(Generated, StudyDocumentsAreFresh) {
+  const auto& study = *study::Study::descriptor();
+  EXPECT_TRUE(committed("study-reference.md") == reference_markdown(study, study_head()))
+      << "docs/user/study-reference.md " << advice;
+  EXPECT_TRUE(committed("study.schema.json") == json_schema(study)) << "docs/user/study.schema.json " << advice;
+}
+
 TEST(Generated, SchemaSaysWhatTheDeclarationSays) {
   const auto schema = nlohmann::json::parse(json_schema());
   EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-07/schema#");

@@ -1,0 +1,93 @@
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <xxhash.h>
+
+#include <memory>
+
+#include "scene/declaration.hpp"
+#include "scene/load.hpp"
+#include "scene/read.hpp"
+
+namespace grainstep::scene {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+std::string serialised(const Message& message) {
+  std::string bytes;
+  {
+    google::protobuf::io::StringOutputStream stream(&bytes);
+    google::protobuf::io::CodedOutputStream coded(&stream);
+    coded.SetSerializationDeterministic(true);
+    message.SerializeToCodedStream(&coded);
+  }
+  return bytes;
+}
+
+std::uint64_t hash_of(const Message& message) {
+  const std::string bytes = serialised(message);
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+bool is_section(const FieldDescriptor& field) {
+  return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !section_of(*field.message_type()).scalar_form();
+}
+
+/// What an empty map of keys would give; required keys are then missing, which does not matter here.
+std::unique_ptr<Message> defaults_of(const Message& kind) {
+  std::unique_ptr<Message> defaults(kind.New());
+  Tree nothing;
+  nothing.kind = Tree::Kind::map;
+  Problems ignored;
+  read_message(nothing, "", *defaults, ignored);
+  return defaults;
+}
+
+/// Whether `field` alone says the same in both.
+bool same(const Message& one, const Message& other, const FieldDescriptor& field) {
+  const auto only = [&field](const Message& from) {
+    std::unique_ptr<Message> part(from.New());
+    part->CopyFrom(from);
+    std::vector<const FieldDescriptor*> set;
+    part->GetReflection()->ListFields(*part, &set);
+    for (const FieldDescriptor* present : set) {
+      if (present != &field) part->GetReflection()->ClearField(part.get(), present);
+    }
+    return serialised(*part);
+  };
+  return only(one) == only(other);
+}
+
+void drop_defaults(Message& message) {
+  const auto& reflection = *message.GetReflection();
+  const std::unique_ptr<Message> defaults = defaults_of(message);
+  std::vector<const FieldDescriptor*> set;
+  reflection.ListFields(message, &set);
+  for (const FieldDescriptor* field : set) {
+    if (!is_section(*field)) {
+      if (same(message, *defaults, *field)) reflection.ClearField(&message, field);
+    } else if (field->is_repeated()) {
+      for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
+        drop_defaults(*reflection.MutableRepeatedMessage(&message, field, i));
+      }
+    } else {
+      Message& part = *reflection.MutableMessage(&message, field);
+      drop_defaults(part);
+      if (part.ByteSizeLong() == 0 && key_of(*field).default_value() == "{}") reflection.ClearField(&message, field);
+    }
+  }
+}
+
+}  // namespace
+
+std::uint64_t scene_hash(const Scene& scene) { return hash_of(scene); }
+
+std::uint64_t essence_hash(const Scene& scene) {
+  Scene essence = scene;
+  essence.clear_title();
+  drop_defaults(essence);
+  return hash_of(essence);
+}
+
+}  // namespace grainstep::scene
