@@ -151,14 +151,17 @@ class Parser {
     return node->name == "in" ? elsewhere(std::move(node)) : call(std::move(node));
   }
 
-  /// in(WHERE, expression): the place is any text up to the comma.
+  /// in(WHERE, expression): the place is any text up to the comma, or in quotes.
   Part elsewhere(Part node) {
     node->kind = Node::Kind::elsewhere;
-    const std::size_t comma = text_.find(',', at_);
-    if (comma == std::string::npos) fail("expected in(WHERE, EXPRESSION)");
-    node->name = text_.substr(at_, comma - at_);
-    node->name.erase(node->name.find_last_not_of(' ') + 1);
-    at_ = comma + 1;
+    const bool quoted = at_ < text_.size() && text_[at_] == '\'';
+    if (quoted) ++at_;
+    const std::size_t end = text_.find(quoted ? '\'' : ',', at_);
+    if (end == std::string::npos) fail("expected in(WHERE, EXPRESSION) or in('WHERE', EXPRESSION)");
+    node->name = text_.substr(at_, end - at_);
+    if (!quoted) node->name.erase(node->name.find_last_not_of(' ') + 1);
+    at_ = quoted ? end + 1 : end;
+    require(',');
     node->parts.push_back(sum());
     require(')');
     return node;

@@ -80,7 +80,10 @@ TEST(Expression, OtherPlacesAreNamedAsTheyAreWritten) {
   given.values = {{"w", {5}}};
   given.places = {{"mesh/D=2 mm, h_4", nullptr}, {"series one/x=2 m", &there}};
   EXPECT_EQ(number("w / in(series one/x=2 m, w) - 1", given), 0.25);
+  given.places["D=2 mm, h/4"] = &there;
+  EXPECT_EQ(number("in('D=2 mm, h/4', w) + in( series one/x=2 m , w)", given), 8);
   EXPECT_TRUE(std::isnan(number("w / in(not done, w)", given)));
+  EXPECT_THAT(error("in(a b)"), ::testing::HasSubstr("expected in(WHERE, EXPRESSION)"));
 }
 
 TEST(Expression, NotANumberIsNotOverlooked) {

@@ -87,7 +87,7 @@ TEST(Plan, BadInputNamesFileAndLine) {
               HasSubstr("study.yaml:5: series.0.scene: cannot read 'none.yaml'"));
   EXPECT_THAT(files.error("series:\n  - name: a\n    axes: [{ values: [1] }]\n"),
               HasSubstr("expected either `key` and `values`, or `choices`"));
-  EXPECT_THAT(files.error("series:\n  - name: a\n    set: [\"steps.structure=1 ms\"]\n"),
+  EXPECT_THAT(files.error("series:\n  - name: a\n    set: [\"steps.structure=0.01 ms\"]\n"),
               HasSubstr("point 'a': steps.structure:"));
 }
 

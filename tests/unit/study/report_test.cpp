@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string text = R"(reference: [seeds/seed=2]
+const std::string text = R"yaml(reference: [seeds/seed=2]
 series:
   - { name: seeds, axes: [{ key: impactor.slug.seed, values: [1, 2, 3] }] }
   - { name: bad, set: ["impactor.slug.seed=8"] }
@@ -33,7 +33,7 @@ series_columns:
 plots:
   - { x: seed, y: peak_deflection, log_x: true, marks: [{ x: 1, y: 2, label: m }], levels: [{ y: 0.2 }] }
   - { name: means, kind: series, x: mean(seed), y: max(peak_deflection) }
-)";
+)yaml";
 
 class ReportTest : public ::testing::Test {
  protected:
