@@ -4,7 +4,7 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages build demo test test-long verify sanitize bench docs clean
+.PHONY: help packages build demo test test-long verify sanitize bench accuracy docs clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -14,6 +14,7 @@ help:
 	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
 	@echo "make bench     the speed table of bench/README.md"
+	@echo "make accuracy  speed against error again, with quiet timings: docs/accuracy.md and what check recommends (half an hour)"
 	@echo "make docs      regenerate the generated pages of docs/"
 
 packages:
@@ -57,6 +58,15 @@ sanitize: packages
 
 bench: build
 	@$(PYTHON) bench/run --build $(BUILD) $(BENCH_OPTIONS)
+
+# One run at a time, so that wall times are those of a run alone. ACCURACY_OPTIONS=--long adds the paper's resolution;
+# ACCURACY_REPEAT= keeps finished runs and their times.
+ACCURACY := runs/studies/speed-error
+ACCURACY_REPEAT ?= --repeat
+accuracy: build
+	@$(BUILD)/bin/grainstep study configs/studies/speed-error.yaml --out $(ACCURACY) --jobs 1 $(ACCURACY_REPEAT) $(ACCURACY_OPTIONS) \
+	  --page docs/accuracy.md
+	@cp $(ACCURACY)/series.csv orchestrator/fidelity.csv
 
 docs: build
 	@$(BUILD)/bin/grainstep-docs docs/user

@@ -1,7 +1,10 @@
 #include "orchestrator/check_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
+#include "base/error.hpp"
+#include "orchestrator/fidelity.hpp"
 #include "orchestrator/preparation.hpp"
 #include "orchestrator/progress.hpp"
 
@@ -54,6 +57,49 @@ void print_cost(const Preparation& p) {
               duration_text(cost->impactor).c_str(), duration_text(cost->structure).c_str());
 }
 
+// For this scene: its size and duration may be other ones than the measured.
+std::string time_text(const scene::Scene& scene) {
+  try {
+    const auto cost = cost_of(prepare(scene, {}));
+    const double seconds = cost ? std::max(cost->impactor, cost->structure) : 0.0;
+    return seconds < 1.0 ? "about a second" : "about " + duration_text(seconds);
+  } catch (const InputError&) {  // too few particles for this slug, too coarse a mesh for this beam
+    return "not possible here";
+  }
+}
+
+void print_recommendation(double percent, const scene::Scene& scene) {
+  const Fidelity* one = cheapest_within(percent, measured_fidelities());
+  if (one == nullptr) {
+    return;
+  }
+  const scene::Scene better = at_fidelity(scene, *one);
+  std::printf("for errors below %3.2g%%    D = %.3g mm, mesh h/%g (a/D = %g, measured %.2g%%): %s\n", percent,
+              1e3 * better.impactor().slug().particle().diameter(), one->refinement, one->particles_across,
+              one->error_deflection, time_text(better).c_str());
+}
+
+void print_fidelity(const scene::Scene& scene) {
+  if (!is_like_the_measured(scene)) {
+    std::printf(
+        "expected error           not measured for this kind of scene (docs/accuracy.md has the monolithic beam)\n");
+    return;
+  }
+  const Fidelity* one = fidelity_of(scene, measured_fidelities());
+  if (one == nullptr) {
+    std::printf("expected error           larger than measured: coarser than every setting of docs/accuracy.md\n");
+  } else if (one->error_deflection == 0.0) {
+    std::printf("expected error           as fine as the run that errors were measured against, or finer\n");
+  } else {
+    std::printf(
+        "expected error           %.2g%% of the deflection, %.2g%% of the impulse, %.2g%% of the early pressure (%s)\n",
+        one->error_deflection, one->error_impulse, one->error_pressure, one->name.c_str());
+  }
+  for (const double percent : {2.0, 1.0, 0.5}) {
+    print_recommendation(percent, scene);
+  }
+}
+
 }  // namespace
 
 void check(const SceneOptions& options) {
@@ -67,6 +113,7 @@ void check(const SceneOptions& options) {
     print_plan(*p.plan);
   }
   print_cost(p);
+  print_fidelity(p.scene);
 }
 
 }  // namespace grainstep::orchestrator
