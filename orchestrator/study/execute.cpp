@@ -196,12 +196,21 @@ class Executor {
                    Remaining::seconds(seconds_since(started_), work_done_, waiting, active));
   }
 
+  /// A run may have been done just before it was asked to end.
+  void keep_if_done(const Active& run) {
+    Outcome found = look(outcomes_[run.point].directory, plan_.points[run.point].key);
+    if (found.state != Outcome::State::done) return;
+    outcomes_[run.point] = std::move(found);
+    outcomes_[run.point].computed = true;
+  }
+
   void end_all() {
     for (const Active& run : active_) run.process->ask_to_end();
     const auto deadline = Clock::now() + grace;
     for (Active& run : active_) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
       run.process->terminate(std::max(left, std::chrono::milliseconds(1)));
+      keep_if_done(run);
       loop_.remove(run.process->descriptor());
     }
   }
