@@ -42,6 +42,24 @@ double number(const Row& row, const std::string& column) {
   return value;
 }
 
+bool is_no_coarser(const Fidelity& one, const Fidelity& other) {
+  return one.particles_across >= other.particles_across && one.refinement >= other.refinement;
+}
+
+std::vector<Fidelity> without_luck(const std::vector<Fidelity>& measured) {
+  std::vector<Fidelity> out = measured;
+  for (Fidelity& one : out) {
+    for (const Fidelity& finer : measured) {
+      if (is_no_coarser(finer, one)) {
+        one.error_deflection = std::max(one.error_deflection, finer.error_deflection);
+        one.error_impulse = std::max(one.error_impulse, finer.error_impulse);
+        one.error_pressure = std::max(one.error_pressure, finer.error_pressure);
+      }
+    }
+  }
+  return out;
+}
+
 bool is_empty(const Row& row, const std::string& column) {
   const auto found = row.find(column);
   return found == row.end() || found->second.empty();
@@ -73,7 +91,7 @@ std::vector<Fidelity> read_fidelities(const std::string& csv) {
                    .error_pressure = number(row, "error_pressure"),
                    .processor_seconds = number(row, "processor_seconds")});
   }
-  return out;
+  return without_luck(out);
 }
 
 const std::vector<Fidelity>& measured_fidelities() {

@@ -28,7 +28,7 @@ struct SummaryInput {
 
 /// What a scene's results depend on besides the scene. Raise it with every change after which some scene gives other
 /// numbers than before (a law, a scheme, a default of the code's own): studies then compute again what they have
-/// (docs/decisions/0009-studies.md). Restructuring, speed and new kinds of scenes leave it alone.
+/// (docs/decisions/0010-studies.md). Restructuring, speed and new kinds of scenes leave it alone.
 inline constexpr int results_version = 1;
 
 /// A hash as summary.json holds it: 16 hexadecimal digits, because a JSON number has no 64 bits.

@@ -40,6 +40,14 @@ TEST(Fidelity, TakesFinishedRowsWithAutomaticSteps) {
   EXPECT_THROW(static_cast<void>(read_fidelities("series,error_deflection\na,1\n")), InputError);
 }
 
+TEST(Fidelity, ALuckySettingIsNoBetterThanFinerOnes) {
+  const auto rows = read_fidelities(std::string(table) + "lucky,3,25,4,,,0.01,0.01,0.01,2\n");
+  EXPECT_EQ(rows.back().name, "lucky");
+  EXPECT_EQ(rows.back().error_deflection, 0.6);  // of "wasteful", which is finer in particles and mesh
+  EXPECT_EQ(rows.back().error_pressure, 2.0);
+  EXPECT_EQ(rows[3].error_deflection, 0.0);
+}
+
 TEST(Fidelity, ASceneIsAsGoodAsTheBestThatIsInNothingFiner) {
   const auto rows = read_fidelities(table);
   EXPECT_EQ(fidelity_of(beam(1e-3, 4), rows)->name, "fine");  // a/D = 100
