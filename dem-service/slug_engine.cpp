@@ -12,7 +12,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "dem-service/packing.hpp"
 #include "dem-service/pair/style.hpp"
 #include "dem-service/surface_fix.hpp"
 
@@ -33,18 +32,6 @@ std::string text_of(const char* format, ...) {
   return buffer;
 }
 
-std::vector<PlacedParticle> packed(const SlugModel& model, const wire::Surface& surface) {
-  const double radius = model.diameter / 2.0;
-  const PackingBox box{{{model.mirror ? radius : radius - model.half_width, radius}},
-                       {{model.half_width - radius, model.height - radius}}};
-  auto centres = pack_at_random(box, model.particles, model.diameter, model.seed);
-  rest_on(MovingSurface(surface).now(), model.diameter, centres);
-  std::vector<PlacedParticle> particles;
-  particles.reserve(centres.size());
-  for (const surface::Vec2& centre : centres) particles.push_back({centre, {{0.0, -model.speed}}, 0.0});
-  return particles;
-}
-
 SlugModel model_of(const wire::Setup& setup) {
   return make_slug_model(setup.impactor().impactor(), setup.symmetry(), setup.depth(), setup.mirror());
 }
@@ -52,7 +39,7 @@ SlugModel model_of(const wire::Setup& setup) {
 }  // namespace
 
 SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup)
-    : SlugEngine(options, setup, packed(model_of(setup), setup.impactor().surface())) {}
+    : SlugEngine(options, setup, lay_out(model_of(setup), MovingSurface(setup.impactor().surface()).now())) {}
 
 SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup,
                        const std::vector<PlacedParticle>& particles)

@@ -3,20 +3,13 @@
 
 #include "dem-service/impactor.hpp"
 #include "dem-service/lammps_session.hpp"
-#include "dem-service/slug_model.hpp"
+#include "dem-service/slug_layout.hpp"
 
 namespace grainstep::dem {
 
-/// One particle at the start.
-struct PlacedParticle {
-  surface::Vec2 position;  ///< m
-  surface::Vec2 velocity;  ///< m/s
-  double spin = 0.0;       ///< 1/s
-};
-
 class SlugEngine {
  public:
-  /// Packs the slug and creates its particles, just touching the surface. Throws InputError.
+  /// Packs the slug and creates its particles, standing on the surface or off it as the scene says. Throws InputError.
   SlugEngine(const EngineOptions& options, const wire::Setup& setup);
 
   /// These particles instead of a packed slug; everything else as the setup says.

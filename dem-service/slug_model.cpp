@@ -14,7 +14,7 @@ namespace {
 
 constexpr double most_particles = std::numeric_limits<int>::max();  // LAMMPS's own numbers of particles
 
-void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth) {
+void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
   std::ostringstream text;
   const scene::Slug& slug = impactor.slug();
   const double diameter = slug.particle().diameter();
@@ -34,6 +34,12 @@ void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double dep
   } else if (!(slug.half_width() > diameter) || !(slug.height() > diameter)) {
     text << "impactor.slug: half_width " << slug.half_width() << " m and height " << slug.height()
          << " m must exceed the particle diameter, " << diameter << " m";
+  } else if (mirror && (slug.angle() != 0.0 || slug.offset() != 0.0)) {
+    text << "impactor.slug: angle " << slug.angle() << " and offset " << slug.offset()
+         << " m have no mirror image: take structure.extent: full";
+  } else if (slug.confined() && (slug.angle() != 0.0 || slug.offset() != 0.0)) {
+    text << "impactor.slug.confined: the walls stand at |x1| = half_width, the slug must move between them: angle and "
+            "offset must be 0";
   }
   if (!text.str().empty()) throw InputError(text.str());
 }
@@ -41,7 +47,7 @@ void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double dep
 }  // namespace
 
 SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
-  check(impactor, symmetry, depth);
+  check(impactor, symmetry, depth, mirror);
   const scene::Slug& slug = impactor.slug();
   const scene::Particle& particle = slug.particle();
   const scene::SurfaceContact& contact = slug.surface_contact();
@@ -52,6 +58,11 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   model.relative_density = slug.relative_density();
   model.seed = slug.seed();
   model.mirror = mirror;
+  model.angle = slug.angle();
+  model.offset = slug.offset();
+  model.stand_off = slug.stand_off();
+  model.tail_speed = slug.has_tail_speed() ? slug.tail_speed() : slug.speed();
+  model.confined = slug.confined();
   model.diameter = particle.diameter();
   const double section = std::numbers::pi * model.diameter * model.diameter / 4.0;
   model.mass = particle.density() * depth * section;

@@ -17,6 +17,11 @@ struct SlugModel {
   double relative_density = 0.0;
   std::uint64_t seed = 0;
   bool mirror = false;
+  double angle = 0.0;       ///< rad, of slug and velocity from the normal
+  double offset = 0.0;      ///< m, x1 of the leading face's middle
+  double stand_off = 0.0;   ///< m, gap at the start
+  double tail_speed = 0.0;  ///< m/s; linear to it from `speed` at the head
+  bool confined = false;    ///< by walls at |x1| = half_width
 
   double diameter = 0.0;
   double mass = 0.0;  ///< of one particle, rho_s b pi D^2/4

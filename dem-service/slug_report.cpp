@@ -67,17 +67,18 @@ void fill_report(const ReportSums& sums, const ReportMaxima& maxima, wire::Repor
   const double tangential_stored = sums.pair_tangential + sums.surface_tangential;
   wire::Energy& energy = *report.mutable_energy();
   energy.set_kinetic(sums.kinetic);
-  energy.set_elastic(sums.pair_normal + sums.surface_normal + sums.mirror_stored + tangential_stored);
-  energy.set_damping(sums.pair_damping + sums.surface_damping + sums.mirror_damping);
+  energy.set_elastic(sums.pair_normal + sums.surface_normal + sums.plane_stored + tangential_stored);
+  energy.set_damping(sums.pair_damping + sums.surface_damping + sums.plane_damping);
   energy.set_friction(sums.pair_work_tangential + sums.surface_work_tangential - tangential_stored);
   // The springs and dashpots of the contact are on this side of the interface: what the surface does to this side is
-  // minus what is done to the surface. The mirror does no work at all: its springs and dashpots are the particles' own.
+  // minus what is done to the surface. Mirror and walls do no work at all: their springs and dashpots are the
+  // particles' own.
   energy.set_interface_work(-sums.work_on_surface);
   wire::Momentum& momentum = *report.mutable_momentum();
   for (int c = 0; c < 2; ++c) {
     momentum.add_linear(sums.momentum[c]);
     momentum.add_interface_impulse(sums.surface_impulse[c]);
-    momentum.add_support_impulse(sums.mirror_impulse[c]);
+    momentum.add_support_impulse(sums.plane_impulse[c]);
   }
   observe(report, "max_overlap", "", maxima.overlap);
   observe(report, "max_particle_speed", "m/s", maxima.speed);

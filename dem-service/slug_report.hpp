@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "dem-service/mirror_contacts.hpp"
 #include "dem-service/pair/contacts.hpp"
+#include "dem-service/plane_contacts.hpp"
 #include "dem-service/surface_contacts.hpp"
 #include "grainstep/wire.pb.h"
 
@@ -20,12 +20,12 @@ struct ReportSums {
   double kinetic = 0.0;
   double pair_normal = 0.0, pair_tangential = 0.0;  ///< J, stored
   double pair_damping = 0.0, pair_work_tangential = 0.0;
-  double surface_normal = 0.0, surface_tangential = 0.0, mirror_stored = 0.0;
-  double surface_damping = 0.0, surface_work_tangential = 0.0, mirror_damping = 0.0;
+  double surface_normal = 0.0, surface_tangential = 0.0, plane_stored = 0.0;
+  double surface_damping = 0.0, surface_work_tangential = 0.0, plane_damping = 0.0;
   double work_on_particles = 0.0, work_on_surface = 0.0;
   double momentum[2] = {0.0, 0.0};
   double surface_impulse[2] = {0.0, 0.0};
-  double mirror_impulse[2] = {0.0, 0.0};
+  double plane_impulse[2] = {0.0, 0.0};
   double surface_contacts = 0.0;
 };
 

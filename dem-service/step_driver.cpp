@@ -27,7 +27,12 @@ StepDriver::StepDriver(const SlugModel& model, const wire::Start& start, const S
       exchange_(exchange),
       contacts_(contact_settings(model, settings)),
       nodal_(surface_.node_count()) {
-  if (model.mirror) mirror_.emplace(calibrated_pair_law(model, settings.dt), settings.margin);
+  const ContactLaw image = calibrated_pair_law(model, settings.dt);
+  if (model.mirror) planes_.emplace_back(Plane{Plane::Kind::mirror, 0.0, 1.0}, image, settings.margin);
+  if (!model.confined) return;
+  const ContactLaw wall = calibrated_surface_law(model, settings.dt);
+  planes_.emplace_back(Plane{Plane::Kind::wall, model.half_width, -1.0}, wall, settings.margin);
+  if (!model.mirror) planes_.emplace_back(Plane{Plane::Kind::wall, -model.half_width, 1.0}, wall, settings.margin);
 }
 
 void StepDriver::check_speed(const ParticleArrays& particles) {
@@ -57,7 +62,7 @@ void StepDriver::rebuild(const ParticleArrays& particles) {
   if (ended_) return;
   check_speed(particles);
   contacts_.rebuild(particles, surface_);
-  if (mirror_) mirror_->rebuild(particles);
+  for (PlaneContacts& plane : planes_) plane.rebuild(particles);
 }
 
 void StepDriver::next_interval(std::uint64_t step, const ParticleArrays& particles) {
@@ -70,7 +75,7 @@ void StepDriver::next_interval(std::uint64_t step, const ParticleArrays& particl
     check_surface_speed();
   }
   contacts_.begin_interval(surface_, settings_.dt);
-  if (mirror_) mirror_->begin_interval(settings_.dt);
+  for (PlaneContacts& plane : planes_) plane.begin_interval(settings_.dt);
   surface_.move_to(static_cast<double>(into_window) / static_cast<double>(steps));
   if (contacts_.surface_left_margin(surface_)) contacts_.rebuild(particles, surface_);
 }
@@ -81,14 +86,14 @@ void StepDriver::before_pair_forces(std::uint64_t step, const ParticleArrays& pa
   const double weight = step == 0 ? settings_.dt / 2.0 : settings_.dt;
   const double grown = step == 0 ? 0.0 : settings_.dt;
   if (const auto failure = contacts_.evaluate(particles, surface_, grown, weight, nodal_)) exchange_.fail(*failure);
-  if (mirror_) mirror_->evaluate(particles);
+  for (PlaneContacts& plane : planes_) plane.evaluate(particles);
   if (step % start_.impactor_steps() == 0) exchange_.hand_over(step / start_.impactor_steps(), nodal_);
 }
 
 void StepDriver::after_pair_forces(const ParticleArrays& particles) {
   if (ended_) return;
   contacts_.apply(particles);
-  if (mirror_) mirror_->apply(particles);
+  for (const PlaneContacts& plane : planes_) plane.apply(particles);
 }
 
 participant::Due StepDriver::due_after(std::uint64_t step) const {
@@ -100,7 +105,7 @@ void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles
   if (ended_) return;
   const double interval = step == 0 ? 0.0 : settings_.dt;  // no interval ends at the start
   contacts_.end_interval(particles, surface_, interval);
-  if (mirror_) mirror_->end_interval(particles, interval);
+  for (PlaneContacts& plane : planes_) plane.end_interval(particles, interval);
   largest_pair_overlap_ = std::max(largest_pair_overlap_, pairs.largest_overlap);
   const participant::Due due = due_after(step);
   const std::uint64_t window = step / start_.impactor_steps();
@@ -132,11 +137,11 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
   sums.surface_contacts = static_cast<double>(contacts_.count());
   std::copy_n(surface.impulse.c.begin(), 2, sums.surface_impulse);
   maxima.overlap = std::max(std::exchange(largest_pair_overlap_, 0.0), contacts_.take_largest_overlap());
-  if (mirror_) {
-    sums.mirror_stored = mirror_->stored();
-    sums.mirror_damping = mirror_->ledger().damping;
-    std::copy_n(mirror_->ledger().impulse.c.begin(), 2, sums.mirror_impulse);
-    maxima.overlap = std::max(maxima.overlap, mirror_->take_largest_overlap());
+  for (PlaneContacts& plane : planes_) {
+    sums.plane_stored += plane.stored();
+    sums.plane_damping += plane.ledger().damping;
+    for (std::size_t c = 0; c < 2; ++c) sums.plane_impulse[c] += plane.ledger().impulse[c];
+    maxima.overlap = std::max(maxima.overlap, plane.take_largest_overlap());
   }
   const ReportSums all = summed(sums, exchange_.communicator());
   const ReportMaxima most = largest(maxima, exchange_.communicator());

@@ -1,4 +1,5 @@
-/// @file What happens in every step besides LAMMPS's own: surface and mirror contact, exchange, ledger. No LAMMPS.
+/// @file What happens in every step besides LAMMPS's own: contact with the surface and rigid planes, exchange, ledger.
+/// No LAMMPS.
 ///
 /// Calls per step, in this order: rebuild() if particles were reordered or left their margin, before_pair_forces(),
 /// after_pair_forces(), end_of_step(). Step 0 is the state at the start. Window n ends with step n times
@@ -25,7 +26,7 @@ class StepDriver {
 
   void rebuild(const ParticleArrays& particles);
 
-  /// Contact with surface and mirror at this step; at a window's end the impulse is on its way before this returns.
+  /// Contact with surface and planes at this step; at a window's end the impulse is on its way before this returns.
   void before_pair_forces(std::uint64_t step, const ParticleArrays& particles);
 
   /// Adds the forces that before_pair_forces() has found.
@@ -50,7 +51,7 @@ class StepDriver {
   MovingSurface surface_;
   RankExchange& exchange_;
   SurfaceContacts contacts_;
-  std::optional<MirrorContacts> mirror_;
+  std::vector<PlaneContacts> planes_;  ///< mirror and walls
   double largest_pair_overlap_ = 0.0;  ///< over the diameter, since the last report
   DissipationGuard dissipation_;
   std::vector<surface::Vec2> nodal_;

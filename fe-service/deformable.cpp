@@ -25,6 +25,7 @@ void Deformable::fill_ready(wire::Ready& ready) const {
   ready.set_preferred_step(kStepSafety * stable_step_);
   ready.set_size(body_.mesh().triangles());
   ready.set_mass(body_.mass());
+  ready.set_contact_mass(body_.corners.mass[surface_[surface_.size() / 2]]);
   ready.set_memory(body_.memory_bytes());
   wire::Surface& surface = *ready.mutable_surface();
   for (std::size_t k = 0; k < surface_.size(); ++k) {

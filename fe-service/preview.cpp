@@ -35,6 +35,8 @@ void preview_beam(const scene::Structure& structure, double depth, StructurePrev
   const Body body(column, layers, depth);
   found.stable_step = body.stable_step();
   found.preferred_step = kStepSafety * found.stable_step;
+  // The only column's two surface nodes have one triangle's neighbourhood each; inside the surface nodes have both.
+  for (const Corner c : body.mesh().surface()) found.contact_mass += body.corners.mass[body.mesh().corner(c)];
   found.memory_bytes = body.memory_bytes() * mesh.batches();
   found.seconds_per_element_step = seconds_per_element_step(mesh, layers);
 }

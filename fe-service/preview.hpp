@@ -16,6 +16,7 @@ struct StructurePreview {
   double element_size = 0.0;    ///< m, side of a quad along the span
   double stable_step = 0.0;     ///< s, of the undeformed mesh, by the function that the run uses
   double preferred_step = 0.0;  ///< s
+  double contact_mass = 0.0;    ///< kg, of a node inside the surface; 0 for a rigid target
   std::uint64_t memory_bytes = 0;
   double seconds_per_element_step = 0.0;  ///< an estimate from bench_fe_kernel (docs/decisions/0003-element-loop.md)
 };

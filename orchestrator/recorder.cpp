@@ -42,8 +42,8 @@ Recorder::Recorder(const Context& context, const results::RunDirectory& director
       load_(ledger::SurfaceLoad(context.surface, context.scene.depth()),
             {.window = context.plan.window, .steps = context.plan.impactor_steps}, loaded_area(context.scene)),
       flushed_(transport::Clock::now()) {
-  load_.watch(early_from * groups_.slug_time);
-  load_.watch(early_to * groups_.slug_time);
+  load_.watch(groups_.arrival + early_from * groups_.slug_time);
+  load_.watch(groups_.arrival + early_to * groups_.slug_time);
   profile_mark_.assign(2 * load_.surface().nodes(), 0.0);
   file_.add(results::Array{.dataset = "/profiles/x1",
                            .meaning = {"m", "undeformed x1 of every segment's middle"},

@@ -67,6 +67,20 @@ void choose_structure_steps(StepPlan& plan, double preferred, double contact_tim
   plan.structure_steps = steps_per_window(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
 }
 
+// Where what touches outweighs the surface's nodes, the surface moves as much as the particle does during a contact, and
+// an impulse that acts a part of a window late makes energy of that: no delay at all, then (docs/decisions/0006-lock-step.md).
+bool needs_equal_steps(SideSteps impactor, SideSteps structure) {
+  return structure.contact_mass > 0.0 && impactor.contact_mass > structure.contact_mass;
+}
+
+// Both steps `auto` where the impactor's is not given: then the shorter one is taken by both.
+void choose_equal_steps(StepPlan& plan, const scene::Step& impactor, double preferred) {
+  if (impactor.value_case() != scene::Step::kSeconds && impactor.value_case() != scene::Step::kRatio) {
+    plan.impactor_step = std::min(plan.impactor_step, preferred);
+  }
+  plan.structure_steps = steps_per_window(std::max(1.0, std::ceil(plan.impactor_step / preferred * (1.0 - round_off))));
+}
+
 // `ratio`: structure step over impactor step, which must be an integer or one over an integer.
 void honour_structure_ratio(StepPlan& plan, double ratio) {
   const bool longer = ratio >= 1.0;
@@ -81,6 +95,16 @@ void honour_structure_ratio(StepPlan& plan, double ratio) {
   }
   (longer ? plan.impactor_steps : plan.structure_steps) = steps_per_window(whole);
   plan.structure_fixed = true;
+}
+
+// `auto` never gets there; a step that the scene fixes may.
+void require_short_window(double window, double contact_time) {
+  if (window > contact_time * (1.0 + round_off)) {
+    refuse("steps.structure", "a step of " + number(window) + " s is longer than a contact lasts, " +
+                                  number(contact_time) +
+                                  " s: the surface moves linearly in between, and would answer after the particle has "
+                                  "left. Write a smaller one, or auto.");
+  }
 }
 
 std::uint64_t every(std::uint64_t windows, std::uint64_t times) {
@@ -111,10 +135,13 @@ StepPlan plan_steps(const scene::Scene& scene, double end, SideSteps impactor, S
   } else if (asked.value_case() == scene::Step::kRatio) {
     require_stable("steps.structure", asked.ratio() * plan.impactor_step, structure.stable);
     honour_structure_ratio(plan, asked.ratio());
+  } else if (needs_equal_steps(impactor, structure)) {
+    choose_equal_steps(plan, scene.steps().impactor(), structure.preferred);
   } else {
     choose_structure_steps(plan, structure.preferred, steps_per_contact * impactor.preferred);
   }
   plan.window = plan.impactor_steps * plan.impactor_step;
+  if (plan.structure_fixed) require_short_window(plan.window, steps_per_contact * impactor.preferred);
   plan.structure_step = plan.window / plan.structure_steps;
   if (plan.structure_fixed && plan.impactor_steps > 1 && plan.window > end * (1.0 + round_off)) {
     refuse("steps.structure", "a step of " + number(plan.window) + " s is longer than the whole run of " + number(end) +

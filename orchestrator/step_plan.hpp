@@ -9,10 +9,11 @@
 
 namespace grainstep::orchestrator {
 
-/// What a side says about its steps (Ready, or a preview), s.
+/// What a side says about its steps (Ready, or a preview).
 struct SideSteps {
-  double stable = 0.0;
-  double preferred = 0.0;
+  double stable = 0.0;        ///< s
+  double preferred = 0.0;     ///< s
+  double contact_mass = 0.0;  ///< kg, of Ready
 };
 
 struct StepPlan {

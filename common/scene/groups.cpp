@@ -41,13 +41,15 @@ Groups groups(const Scene& scene) {
   const double rho_bar = slug.relative_density();
   const double rho_s = slug.particle().density();
   Groups g;
-  g.areal_momentum = areal_momentum(rho_bar, rho_s, slug.height(), slug.speed());
+  const double tail_speed = slug.has_tail_speed() ? slug.tail_speed() : slug.speed();
+  g.areal_momentum = areal_momentum(rho_bar, rho_s, slug.height(), 0.5 * (slug.speed() + tail_speed));
   g.areal_mass = areal_mass(scene.structure());
   g.impulse_number = impulse_number(g.areal_momentum, g.areal_mass, face.yield_strength(), face.density());
   g.areal_mass_ratio = areal_mass_ratio(rho_bar, rho_s, slug.height(), g.areal_mass);
   g.width_ratio = slug.half_width() / scene.structure().half_span();
   g.reference_time = reference_time(scene.structure().half_span(), face.density(), face.yield_strength());
   g.slug_time = slug.height() / slug.speed();
+  g.arrival = slug.stand_off() > 0 ? slug.stand_off() / slug.speed() : 0;
   g.loading_time_ratio = loading_time_ratio(g.slug_time, g.reference_time);
   g.slug_pressure = rho_bar * rho_s * slug.speed() * slug.speed();
   g.end = seconds(scene.time().end(), g.reference_time);

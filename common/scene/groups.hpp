@@ -9,7 +9,7 @@
 
 namespace grainstep::scene {
 
-/// I0 = rho_bar rho_s H v0, kg/(m s): momentum per loaded area.
+/// I0 = rho_bar rho_s H v0, kg/(m s): momentum per loaded area. Where head and tail differ in speed, v0 is their mean.
 [[nodiscard]] double areal_momentum(double relative_density, double material_density, double height, double speed);
 
 /// m_b = sum of density times thickness, kg/m^2.
@@ -41,6 +41,7 @@ struct Groups {
   double loading_time_ratio = 0;  ///< tau; infinite for a slug at rest
   double reference_time = 0;      ///< L sqrt(rho_m/sigma_Y), s
   double slug_time = 0;           ///< H/v0, s: t_hat = 1; infinite for a slug at rest
+  double arrival = 0;             ///< stand_off/v0, s: first contact
   double slug_pressure = 0;       ///< rho_bar rho_s v0^2, Pa: what contact pressure is measured in
   double end = 0;                 ///< end of the run, s
 };

@@ -35,7 +35,10 @@ std::mutex& udunits_mutex() {
 ut_system* unit_system() {
   static ut_system* const system = [] {
     ut_set_error_message_handler(ut_ignore);
-    return ut_read_xml(nullptr);
+    ut_system* const read = ut_read_xml(nullptr);
+    // Everybody writes deg; the database only knows degree and arc_degree.
+    if (read != nullptr) ut_map_name_to_unit("deg", UT_ASCII, Unit(ut_parse(read, "arc_degree", UT_ASCII)).get());
+    return read;
   }();
   if (system == nullptr) {
     throw InputError(

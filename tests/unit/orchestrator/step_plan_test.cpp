@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <limits>
-
+#include <algorithm>
 #include <limits>
 
 #include "base/error.hpp"
@@ -125,6 +124,31 @@ TEST(StepPlan, RefusesWhatNoIntegerCounts) {
     scene.mutable_steps()->mutable_impactor()->set_ratio(fine);
     EXPECT_THAT(refusal(scene, unlimited), HasSubstr("would take"));
   }
+}
+
+TEST(StepPlan, HeavyParticlesOnLightNodesGetEqualSteps) {
+  const auto plan_of = [](scene::Scene scene, double structure_step) {
+    return plan_steps(scene, 3e-3, {4e-8, 2.4e-8, 2e-3}, {structure_step, structure_step, 1e-3});
+  };
+  for (const double structure_step : {1e-9, 0.7e-8, 2.4e-8, 1e-7}) {
+    const StepPlan plan = plan_of(automatic(), structure_step);
+    EXPECT_TRUE(plan.equal_steps());
+    EXPECT_DOUBLE_EQ(plan.impactor_step, std::min(2.4e-8, structure_step));
+  }
+  auto scene = automatic();
+  scene.mutable_steps()->mutable_impactor()->set_ratio(20.0);  // what the scene fixes is kept
+  EXPECT_DOUBLE_EQ(plan_of(scene, 0.5e-8).impactor_step, 1.2e-8);
+  EXPECT_EQ(plan_of(scene, 0.5e-8).structure_steps, 3U);
+  EXPECT_TRUE(plan_of(scene, 1e-7).equal_steps());
+}
+
+TEST(StepPlan, RefusesAWindowThatIsLongerThanAContact) {
+  auto scene = automatic();
+  scene.mutable_steps()->mutable_structure()->set_ratio(10);
+  EXPECT_EQ(plan_steps(scene, 3e-3, impactor, {1e-6, 1e-6}).impactor_steps, 10U);
+  scene.mutable_steps()->mutable_structure()->set_ratio(11);
+  EXPECT_THAT(refusal(scene, {1e-6, 1e-6}),
+              ::testing::AllOf(HasSubstr("steps.structure"), HasSubstr("2.64e-07"), HasSubstr("2.4e-07")));
 }
 
 TEST(StepPlan, RefusesAWindowThatIsLongerThanTheRun) {

@@ -68,6 +68,7 @@ TEST(Quantity, DecimalPrefixesAreExact) {
   EXPECT_EQ(parse_quantity("0e99999999999 um", "m"), 0);
   EXPECT_DOUBLE_EQ(parse_quantity("1 inch", "m"), 0.0254);
   EXPECT_DOUBLE_EQ(parse_quantity("20 degC", "K"), 293.15);
+  EXPECT_DOUBLE_EQ(parse_quantity("180 deg", "rad"), 3.14159265358979323846);
 }
 
 TEST(QuantityErrors, NameTheTextItsDimensionAndTheExpectedUnit) {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "dem-service/damping.hpp"
-#include "dem-service/mirror_contacts.hpp"
+#include "dem-service/plane_contacts.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -29,7 +29,7 @@ Bounce bounce(double restitution, double dt) {
   ContactLaw law;
   law.normal_stiffness = stiffness;
   law.damping_rate = continuum_damping(pair);
-  MirrorContacts mirror(law, radius);
+  PlaneContacts mirror({Plane::Kind::mirror, 0.0, 1.0}, law, radius);
   double x[3] = {radius, 0.0, 0.0};
   double v[3] = {-speed, 0.0, 0.0};
   double f[3] = {};

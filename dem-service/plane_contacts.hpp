@@ -1,5 +1,7 @@
-/// @file The mirror plane x1 = 0 of a half model: a particle that reaches it touches its own image. Overlap 2(R - x1),
-/// effective mass m/2, no tangential force. The pair's energy is shared with the image: half of it is counted here.
+/// @file Frictionless rigid planes across x1 that no structure carries: the mirror plane of a half model, and the walls
+/// that confine a slug to its strip. A particle at a mirror touches its own image: overlap 2(R - x1), effective mass
+/// m/2; the pair's energy is shared with the image, half of it is counted here. At a wall it moves alone: overlap R -
+/// distance, m_eff = m.
 #pragma once
 
 #include <utility>
@@ -11,10 +13,18 @@
 
 namespace grainstep::dem {
 
-class MirrorContacts {
+struct Plane {
+  enum class Kind { mirror, wall };
+  Kind kind = Kind::wall;
+  double position = 0.0;  ///< m, x1
+  double inward = 1.0;    ///< +1: particles are at larger x1; -1: at smaller
+};
+
+class PlaneContacts {
  public:
-  /// `margin`: m a particle may move between two rebuilds.
-  MirrorContacts(const ContactLaw& pair_law, double margin) : law_(pair_law), margin_(margin) {}
+  /// `margin`: m a particle may move between two rebuilds. The law is that of a pair for a mirror, of a particle that
+  /// moves alone for a wall; its tangential part is not used.
+  PlaneContacts(const Plane& plane, const ContactLaw& law, double margin) : plane_(plane), law_(law), margin_(margin) {}
 
   void rebuild(const ParticleArrays& particles);
   void begin_interval(double dt) { ledger_.add(dt / 2.0, particle_side_, {}); }
@@ -33,6 +43,11 @@ class MirrorContacts {
     int particle;
     double total, dashpot;  ///< N, along x1
   };
+  [[nodiscard]] double distance(const ParticleArrays& particles, int i) const {
+    return plane_.inward * (particles.position[i][0] - plane_.position);
+  }
+
+  Plane plane_;
   ContactLaw law_;
   double margin_;
   std::vector<int> candidates_;

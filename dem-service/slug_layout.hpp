@@ -1,0 +1,22 @@
+/// @file Where a slug's particles are and how fast they move at t = 0.
+#pragma once
+
+#include <vector>
+
+#include "dem-service/slug_model.hpp"
+#include "surface/polyline.hpp"
+
+namespace grainstep::dem {
+
+/// One particle at the start.
+struct PlacedParticle {
+  surface::Vec2 position;  ///< m
+  surface::Vec2 velocity;  ///< m/s
+  double spin = 0.0;       ///< 1/s
+};
+
+/// Packs the slug's block at random, turns it by its angle about the middle of its leading face, and lets it stand
+/// `stand_off` above first touch of the surface. Speeds are linear from head to tail. Throws InputError.
+[[nodiscard]] std::vector<PlacedParticle> lay_out(const SlugModel& model, const surface::Polyline& surface);
+
+}  // namespace grainstep::dem
