@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "fe-service/initial_velocity.hpp"
 #include "fe-service/layers.hpp"
 
 namespace grainstep::fe {
@@ -16,6 +17,7 @@ Deformable::Deformable(const scene::Structure& structure, const scene::Guards& g
       body_(make_mesh(structure), make_layers(structure), depth),
       undeformed_step_(body_.stable_step()),
       stable_step_(undeformed_step_) {
+  set_initial_velocity(structure, body_);
   for (const Corner c : body_.mesh().surface()) surface_.push_back(body_.mesh().corner(c));
   travelled_.resize(surface_.size());
 }
@@ -113,17 +115,17 @@ void Deformable::keep(participant::Due due, const Velocities& before, double wei
   until.interface = until.interface + weight * gained.interface;
   until.supports = until.supports + weight * gained.supports;
   // Over the whole step the impulse j does the work j . (V(n-1/2) + V(n+1/2))/2. Up to t(n) the surface has moved with
-  // V(n-1/2) only: w j . V(n-1/2), which is what the impactor, with the same steps, has counted as well. Kinetic energy
-  // would have V(n)/2 + V(n-1/2)/2 here: a difference of the order of the step squared that returns to zero with j.
+  // V(n-1/2) only: w j . V(n-1/2), which is what the impactor, with the same steps, has counted as well, and what the
+  // conserved kinetic energy has gained from it.
   until.work += weight * gained.work_before;
-  fill_report(at, until);
+  fill_report(before, at, until);
 }
 
-void Deformable::fill_report(const Velocities& at, const Received& until) {
+void Deformable::fill_report(const Velocities& before, const Velocities& at, const Received& until) {
   report_.Clear();
   report_.set_window(window_);
   wire::Energy& energy = *report_.mutable_energy();
-  energy.set_kinetic(kinetic_energy(body_, at));
+  energy.set_kinetic(conserved_kinetic_energy(body_, before, at));
   energy.set_elastic(elastic_energy(body_));
   energy.set_plastic(plastic_work_);
   energy.set_interface_work(until.work);

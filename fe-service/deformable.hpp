@@ -52,7 +52,7 @@ class Deformable final : public WindowedStructure {
 
   [[nodiscard]] Received kick(const wire::Forces& forces, double internal_weight);
   void keep(participant::Due due, const Velocities& before, double weight, const Received& gained);
-  void fill_report(const Velocities& at, const Received& until);
+  void fill_report(const Velocities& before, const Velocities& at, const Received& until);
   void internal_forces();
   void track_peak(std::uint32_t substep);
   void fill_kinematics(wire::Kinematics& next) const;

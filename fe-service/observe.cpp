@@ -17,6 +17,12 @@ double kinetic(const Array& mass, const Array& u, const Array& v) {
   return 0.5 * sum;
 }
 
+double conserved(const Array& mass, const Array& before, const Array& at) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mass.size(); ++i) sum += mass[i] * before[i] * (2.0 * at[i] - before[i]);
+  return 0.5 * sum;
+}
+
 double weighted_sum(const Array& mass, const Array& u) {
   double sum = 0.0;
   for (std::size_t i = 0; i < mass.size(); ++i) sum += mass[i] * u[i];
@@ -117,6 +123,13 @@ Velocities Velocities::blend(const Velocities& before, const Velocities& after, 
 
 double kinetic_energy(const Body& body, const Velocities& at) {
   return kinetic(body.corners.mass, at.corner_u, at.corner_v) + kinetic(body.centres.mass, at.centre_u, at.centre_v);
+}
+
+double conserved_kinetic_energy(const Body& body, const Velocities& before, const Velocities& at) {
+  return conserved(body.corners.mass, before.corner_u, at.corner_u) +
+         conserved(body.corners.mass, before.corner_v, at.corner_v) +
+         conserved(body.centres.mass, before.centre_u, at.centre_u) +
+         conserved(body.centres.mass, before.centre_v, at.centre_v);
 }
 
 Vec2 linear_momentum(const Body& body, const Velocities& at) {

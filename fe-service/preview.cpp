@@ -4,7 +4,7 @@
 #include "fe-service/body.hpp"
 #include "fe-service/deformable.hpp"
 #include "fe-service/layers.hpp"
-#include "fe-service/rigid.hpp"
+#include "participant/schedule.hpp"
 
 namespace grainstep::fe {
 
@@ -51,7 +51,7 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
   found.density = structure.layers(0).density();
   for (const scene::Layer& layer : structure.layers()) found.areal_mass += layer.density() * layer.thickness();
   if (structure.type() == scene::Structure::TYPE_RIGID) {
-    found.stable_step = found.preferred_step = kNoStepLimit;
+    found.stable_step = found.preferred_step = participant::no_step_limit;
   } else {
     preview_beam(structure, depth, found);
   }

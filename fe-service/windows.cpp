@@ -21,7 +21,7 @@ std::unique_ptr<WindowedStructure> make_structure(const wire::Setup& setup) {
     case scene::Structure::TYPE_BEAM:
       return std::make_unique<Deformable>(structure, setup.structure().guards(), setup.depth());
     case scene::Structure::TYPE_RIGID:
-      return std::make_unique<Rigid>(structure);
+      return std::make_unique<Rigid>(structure, setup.depth());
     default:
       throw InputError(fmt::format("structure.type: grainstep-fe knows `beam` and `rigid`, found value number {}",
                                    static_cast<int>(structure.type())));

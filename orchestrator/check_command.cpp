@@ -1,7 +1,9 @@
 #include "orchestrator/check_command.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "base/error.hpp"
 #include "orchestrator/fidelity.hpp"
@@ -13,13 +15,20 @@ namespace {
 
 constexpr double mebibyte = 1024.0 * 1024.0;
 
+// A group that the scene has not is a dash.
+std::string number(double value) {
+  char out[32] = "-";
+  if (std::isfinite(value)) std::snprintf(out, sizeof out, "%.4g", value);
+  return out;
+}
+
 void print_groups(const scene::Groups& g) {
-  std::printf("impulse number I_o       %.4g\n", g.impulse_number);
-  std::printf("areal mass ratio m_bar   %.4g\n", g.areal_mass_ratio);
-  std::printf("loading time ratio tau   %.4g\n", g.loading_time_ratio);
-  std::printf("width ratio a/L          %.4g\n", g.width_ratio);
-  std::printf("end                      %.4g s, t_bar %.4g, t_hat %.4g\n", g.end, g.end / g.reference_time,
-              g.end / g.slug_time);
+  std::printf("impulse number I_o       %s\n", number(g.impulse_number).c_str());
+  std::printf("areal mass ratio m_bar   %s\n", number(g.areal_mass_ratio).c_str());
+  std::printf("loading time ratio tau   %s\n", number(g.loading_time_ratio).c_str());
+  std::printf("width ratio a/L          %s\n", number(g.width_ratio).c_str());
+  std::printf("end                      %.4g s, t_bar %.4g, t_hat %s\n", g.end, g.end / g.reference_time,
+              number(g.end / g.slug_time).c_str());
 }
 
 void print_plan(const StepPlan& plan) {
@@ -29,7 +38,9 @@ void print_plan(const StepPlan& plan) {
 }
 
 void print_sides(const Preparation& p) {
-  if (p.impactor) {
+  if (p.impactor && p.impactor->particles == 0) {
+    std::printf("particles                0: a prescribed load, which has no step of its own\n");
+  } else if (p.impactor) {
     std::printf("particles                %llu, stable step %.4g s, contact time %.4g s\n",
                 static_cast<unsigned long long>(p.impactor->particles), p.impactor->stable_step,
                 p.impactor->contact_time);

@@ -45,10 +45,12 @@ class Run {
     session_.introduce();
     plan_ = session_.prepare();
     progress_.emplace(stdout, how_.progress, plan_->windows, plan_->window / p.groups.reference_time);
-    recorder_.emplace(
-        Recorder::Context{
-            .scene = p.scene, .groups = p.groups, .plan = *plan_, .surface = hub_.structure().ready.surface()},
-        how_.directory, *file_, [this](std::uint64_t window) { progress_->tick(window); });
+    recorder_.emplace(Recorder::Context{.scene = p.scene,
+                                        .groups = p.groups,
+                                        .plan = *plan_,
+                                        .surface = hub_.structure().ready.surface(),
+                                        .masses = {hub_.impactor().ready.mass(), hub_.structure().ready.mass()}},
+                      how_.directory, *file_, [this](std::uint64_t window) { progress_->tick(window); });
     background_.emplace(*recorder_);
     session_.run(*plan_, *background_);
   }

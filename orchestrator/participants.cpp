@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "orchestrator/peer.hpp"
 #include "process/launch.hpp"
+#include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -34,10 +35,23 @@ bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& o
   return by_scene || std::ranges::find(options.external, name_of(role)) != options.external.end();
 }
 
+bool has_particles(const scene::Scene& scene) { return scene::has_slug(scene); }
+
 Participants::Participants(const scene::Scene& scene, const RunOptions& options)
     : options_(options),
-      impactor_{wire::IMPACTOR, is_external(wire::IMPACTOR, scene, options), "grainstep-dem", nullptr},
-      structure_{wire::STRUCTURE, is_external(wire::STRUCTURE, scene, options), "grainstep-fe", nullptr} {
+      impactor_{wire::IMPACTOR,
+                is_external(wire::IMPACTOR, scene, options),
+                has_particles(scene),
+                {"grainstep-dem"},
+                nullptr},
+      structure_{wire::STRUCTURE, is_external(wire::STRUCTURE, scene, options), false, {"grainstep-fe"}, nullptr} {
+  if (!impactor_.mpi) {
+    impactor_.command = {"grainstep-fe", "--role", "impactor"};
+    if (options.ranks > 1) {
+      throw InputError("--ranks " + std::to_string(options.ranks) +
+                       ": an impactor without particles is one process; leave --ranks out");
+    }
+  }
   open(impactor_);
   open(structure_);
 }
@@ -64,15 +78,19 @@ void Participants::start(const Side& side, Supervision& supervision, const resul
   const std::string& endpoint = side.channel->endpoint();
   if (side.external) {
     const bool keys = endpoint.starts_with("tcp") && !options_.curve_dir.empty();
-    std::printf("waiting %.0f s for the %s; start it with:\n  %s --connect %s%s%s\n", options_.deadlines.connect_s,
-                name_of(side.role), side.program.c_str(), endpoint.c_str(), keys ? " --curve-dir DIR" : "",
+    std::string command;
+    for (const std::string& word : side.command) command += word + " ";
+    std::printf("waiting %.0f s for the %s; start it with:\n  %s--connect %s%s%s\n", options_.deadlines.connect_s,
+                name_of(side.role), command.c_str(), endpoint.c_str(), keys ? " --curve-dir DIR" : "",
                 options_.allow_plain_tcp ? " --allow-plain-tcp" : "");
     std::fflush(stdout);
     return;
   }
-  process::Command command{
-      .program = process::find_program(side.program), .arguments = {"--connect", endpoint}, .environment = {}};
-  if (side.role == wire::IMPACTOR) {
+  process::Command command{.program = process::find_program(side.command.front()),
+                           .arguments = {side.command.begin() + 1, side.command.end()},
+                           .environment = {}};
+  command.arguments.insert(command.arguments.end(), {"--connect", endpoint});
+  if (side.mpi) {
     command = process::mpi_command(options_.ranks, std::move(command));
   }
   supervision.start(side.role, command, directory.logs() / (std::string(name_of(side.role)) + ".log"));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
@@ -15,6 +16,9 @@ namespace grainstep::orchestrator {
 
 /// By the scene or by the command line.
 [[nodiscard]] bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& options);
+
+/// A slug is computed by grainstep-dem; what else loads a structure, by grainstep-fe in the impactor's role.
+[[nodiscard]] bool has_particles(const scene::Scene& scene);
 
 class Participants {
  public:
@@ -35,7 +39,8 @@ class Participants {
   struct Side {
     wire::Role role;
     bool external;
-    std::string program;
+    bool mpi;
+    std::vector<std::string> command;  ///< program and what it is told besides where to connect
     std::unique_ptr<transport::ZmqChannel> channel;
   };
   [[nodiscard]] std::string endpoint_of(const Side& side) const;

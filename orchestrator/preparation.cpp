@@ -1,9 +1,21 @@
 #include "orchestrator/preparation.hpp"
 
 #include "orchestrator/participants.hpp"
+#include "participant/schedule.hpp"
 #include "scene/load.hpp"
 
 namespace grainstep::orchestrator {
+
+namespace {
+
+// An impactor without particles follows the structure's steps.
+dem::ImpactorPreview without_particles() {
+  dem::ImpactorPreview out;
+  out.stable_step = out.preferred_step = participant::no_step_limit;
+  return out;
+}
+
+}  // namespace
 
 Preparation prepare(const RunOptions& options) {
   return prepare(scene::load_scene(options.scene.scene, options.scene.set), options);
@@ -21,7 +33,8 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
     out.structure = fe::preview(scene.structure(), scene.symmetry(), scene.depth());
   }
   if (!is_external(wire::IMPACTOR, scene, options)) {
-    out.impactor = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
+    out.impactor = has_particles(scene) ? dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror)
+                                        : without_particles();
   }
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end, {out.impactor->stable_step, out.impactor->preferred_step, out.impactor->particle_mass},

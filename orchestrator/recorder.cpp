@@ -16,13 +16,6 @@ constexpr std::size_t burst_bytes = 64U << 20U;
 constexpr double early_from = 0.05;  // t_hat
 constexpr double early_to = 0.3;     // t_hat
 
-bool is_half(const scene::Scene& scene) { return scene.structure().extent() == scene::Structure::EXTENT_HALF; }
-
-// 2 a b of (4.4), or the half of it that is modelled.
-double loaded_area(const scene::Scene& scene) {
-  return (is_half(scene) ? 1.0 : 2.0) * scene.impactor().slug().half_width() * scene.depth();
-}
-
 std::span<const double> span_of(const google::protobuf::RepeatedField<double>& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
@@ -37,10 +30,12 @@ Recorder::Recorder(const Context& context, const results::RunDirectory& director
       start_(context.plan.start()),
       file_(file),
       snapshots_(directory, file),
+      masses_(context.masses),
       tick_(std::move(tick)),
       sums_(2),
       load_(ledger::SurfaceLoad(context.surface, context.scene.depth()),
-            {.window = context.plan.window, .steps = context.plan.impactor_steps}, loaded_area(context.scene)),
+            {.window = context.plan.window, .steps = context.plan.impactor_steps},
+            context.groups.loaded_width * context.scene.depth()),
       flushed_(transport::Clock::now()) {
   load_.watch(groups_.arrival + early_from * groups_.slug_time);
   load_.watch(groups_.arrival + early_to * groups_.slug_time);
@@ -111,7 +106,7 @@ void Recorder::complete_rows() {
 
 void Recorder::write_row(std::uint64_t window, const Pending& row) {
   if (!ledger_) {
-    ledger_.emplace(*row.impactor, *row.structure, plan_.impactor_steps == 1);
+    ledger_.emplace(*row.impactor, *row.structure, plan_.impactor_steps == 1, masses_);
   }
   const ledger::Balance balance = ledger_->close(*row.impactor, *row.structure, row.handed_over);
   const double time = time_of(window);

@@ -40,6 +40,7 @@ class Recorder final : public StepObserver {
     const scene::Groups& groups;
     const StepPlan& plan;
     const wire::Surface& surface;
+    ledger::Masses masses = {};
   };
   /// `tick` is called when the run has a moment, with the windows seen so far. References must outlive the recorder.
   Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
@@ -75,6 +76,7 @@ class Recorder final : public StepObserver {
   wire::Start start_;
   results::ResultsFile& file_;
   results::Snapshots snapshots_;
+  ledger::Masses masses_;
   std::function<void(std::uint64_t)> tick_;
   ledger::ImpulseSums sums_;
   ledger::LoadHistory load_;

@@ -37,7 +37,7 @@ void put_energy(Row& row, const std::string& side, const wire::Energy& e, double
   put(row, group + "viscous", "J", "other dissipation since the start", e.viscous());
   put(row, group + "support_work", "J", "work of the supports on this side since the start", e.support_work());
   put(row, group + "interface_work", "J", "work on this side through the surface since the start", e.interface_work());
-  put(row, group + "error", "", "what of this side's energy is not explained, over the initial energy", error);
+  put(row, group + "error", "", "what of this side's energy is not explained, over the reference", error);
 }
 
 void put_momentum(Row& row, const std::string& side, const ledger::Closure& closure) {
@@ -46,8 +46,7 @@ void put_momentum(Row& row, const std::string& side, const ledger::Closure& clos
   put_vector(row, group + "interface", "N s", "impulse received through the surface since the start",
              closure.interface);
   put_vector(row, group + "support", "N s", "impulse received from supports since the start", closure.support);
-  put(row, group + "error", "", "what of this side's momentum is not explained, over the initial momentum",
-      closure.error);
+  put(row, group + "error", "", "what of this side's momentum is not explained, over the reference", closure.error);
 }
 
 }  // namespace
@@ -56,13 +55,14 @@ Row series_row(const RowData& data, const scene::Groups& groups) {
   Row row;
   put(row, "/series/time", "s", "time since first contact", data.time);
   put(row, "/series/t_bar", "", "t / (L sqrt(rho_m/sigma_Y))", data.time / groups.reference_time);
-  put(row, "/series/t_hat", "", "slug time t v0 / H",
-      std::isfinite(groups.slug_time) ? data.time / groups.slug_time : 0);
-  put(row, "/series/mean_pressure", "Pa",
-      "contact pressure averaged over the slug's width and the row's interval (4.4)", data.mean_pressure);
+  if (std::isfinite(groups.slug_time))
+    put(row, "/series/t_hat", "", "slug time t v0 / H", data.time / groups.slug_time);
+  put(row, "/series/mean_pressure", "Pa", "pressure averaged over the loaded width and the row's interval (4.4)",
+      data.mean_pressure);
   put(row, "/series/transmitted_impulse", "Pa s", "integral of the mean pressure (4.5)", data.transmitted);
-  put(row, "/series/transmitted_impulse_ratio", "", "I_t / I0",
-      groups.areal_momentum > 0.0 ? data.transmitted / groups.areal_momentum : 0.0);
+  if (groups.areal_momentum > 0.0) {
+    put(row, "/series/transmitted_impulse_ratio", "", "I_t / I0", data.transmitted / groups.areal_momentum);
+  }
   put_observables(row, "impactor", data.impactor);
   put_observables(row, "structure", data.structure);
   return row;
@@ -72,17 +72,21 @@ Row ledger_row(const RowData& data) {
   const ledger::Balance& b = data.balance;
   Row row;
   put(row, "/ledger/time", "s", "time since first contact", data.time);
-  put(row, "/ledger/momentum_error", "", "momentum that is not explained, over the initial momentum", b.momentum_error);
+  put(row, "/ledger/momentum_error", "", "momentum that is not explained, over the reference", b.momentum_error);
+  put(row, "/ledger/momentum_reference", "N s",
+      "momentum of the start or, if larger, the largest impulse handed over so far", b.momentum_reference);
   put(row, "/ledger/interface_momentum", "",
-      "momentum that the sides claim to have received beyond what the messages carried, over the initial momentum",
+      "momentum that the sides claim to have received beyond what the messages carried, over the reference",
       b.interface_momentum);
   put_vector(row, "/ledger/in_flight", "N s", "impulse given by the impactor that the structure has not taken up yet",
              b.in_flight);
   put(row, "/ledger/energy", "J", "kinetic, stored and dissipated energy of both sides less the supports' work",
       b.energy);
+  put(row, "/ledger/energy_reference", "J", "energy of the start or, if larger, the largest work handed over so far",
+      b.energy_reference);
   put(row, "/ledger/energy_drift", "",
       "largest of the energies that are not explained: of the whole, of each side, at the interface", b.energy_drift);
-  put(row, "/ledger/energy_change", "", "change of that energy over its initial value", b.energy_change);
+  put(row, "/ledger/energy_change", "", "change of that energy over the reference", b.energy_change);
   put(row, "/ledger/interface_mismatch", "J",
       "work on the surface as the impactor sees it, less as the structure sees it", b.interface_mismatch);
   put_energy(row, "impactor", data.impactor.energy(), b.impactor_energy);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "participant/schedule.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -32,8 +33,24 @@ void require_stable(const std::string& where, double step, double stable) {
   }
 }
 
+// Steps of a run in which neither side has a limit: a mass that a prescribed pressure pushes.
+constexpr double unlimited_steps = 1000.0;
+
+// An impactor without a step of its own (a prescribed load) takes the structure's, so that both are equal unless the
+// scene says otherwise; where the structure has none either, a part of the run.
+double following_step(const scene::Step& structure_step, double end, SideSteps structure) {
+  if (structure_step.value_case() == scene::Step::kSeconds) return structure_step.seconds();
+  const double own = structure.preferred < participant::no_step_limit ? structure.preferred : end / unlimited_steps;
+  return structure_step.value_case() == scene::Step::kRatio ? own / structure_step.ratio() : own;
+}
+
 double impactor_step(const scene::Step& step, SideSteps side) {
   double seconds = side.preferred;
+  if (step.value_case() == scene::Step::kRatio && side.preferred >= participant::no_step_limit) {
+    refuse("steps.impactor",
+           "a bare number is a contact time over the step, but this impactor has no contacts. Write "
+           "seconds with a unit, or auto.");
+  }
   if (step.value_case() == scene::Step::kSeconds) {
     seconds = step.seconds();
   } else if (step.value_case() == scene::Step::kRatio) {
@@ -62,6 +79,7 @@ std::uint32_t steps_per_window(double value) {
 // A window is no longer than a contact, because the surface moves linearly in it; that also bounds the window of a
 // target that has no stable step of its own.
 void choose_structure_steps(StepPlan& plan, double preferred, double contact_time) {
+  if (std::min(preferred, contact_time) >= participant::no_step_limit) return;  // one to one
   const double ratio = std::min(preferred, contact_time) / plan.impactor_step;
   plan.impactor_steps = steps_per_window(std::max(1.0, std::floor(ratio * (1.0 + round_off))));
   plan.structure_steps = steps_per_window(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
@@ -127,7 +145,10 @@ wire::Start StepPlan::start() const {
 
 StepPlan plan_steps(const scene::Scene& scene, double end, SideSteps impactor, SideSteps structure) {
   StepPlan plan;
+  const bool follows = impactor.preferred >= participant::no_step_limit &&
+                       scene.steps().impactor().value_case() != scene::Step::kSeconds;
   plan.impactor_step = impactor_step(scene.steps().impactor(), impactor);
+  if (follows) plan.impactor_step = following_step(scene.steps().structure(), end, structure);
   const scene::Step& asked = scene.steps().structure();
   if (asked.value_case() == scene::Step::kSeconds) {
     require_stable("steps.structure", asked.seconds(), structure.stable);

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Infinite groups (a slug at rest) have no JSON number.
+// Groups that a scene has not, or that are infinite (a slug at rest), have no JSON number.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string text_of(const Json& value, const char* format) {

@@ -34,21 +34,33 @@ namespace {
 
 double own_energy(const wire::Energy& e) { return energy_of(e) - e.interface_work(); }
 
+/// `error` over `reference`, also where there is none: then any error is all that there is.
+double part_of(double reference, double error) {
+  if (reference > 0.0) return error / reference;
+  return error == 0.0 ? 0.0 : std::copysign(1.0, error);
+}
+
+/// N s: the most that a mass with this kinetic energy can have.
+double largest_momentum(double mass, const wire::Energy& energy) {
+  return std::sqrt(2.0 * mass * std::max(0.0, energy.kinetic()));
+}
+
 }  // namespace
 
-Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps)
+Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps, const Masses& masses)
     : impactor_start_(impactor.momentum()),
       structure_start_(structure.momentum()),
       impactor_start_energy_(own_energy(impactor.energy())),
       structure_start_energy_(own_energy(structure.energy())),
       equal_steps_(equal_steps),
       initial_energy_(energy_of(impactor.energy()) + energy_of(structure.energy())),
-      momentum_scale_(length(plus(vector_of(impactor_start_.linear()), vector_of(structure_start_.linear())))) {}
+      energy_reference_(initial_energy_),
+      momentum_reference_(
+          std::max(length(plus(vector_of(impactor_start_.linear()), vector_of(structure_start_.linear()))),
+                   largest_momentum(masses.impactor, impactor.energy()) +
+                       largest_momentum(masses.structure, structure.energy()))) {}
 
-double Ledger::relative(double momentum) const {
-  // A run that starts at rest has nothing to compare with; whatever it does to momentum is then an absolute number.
-  return momentum_scale_ > 0.0 ? momentum / momentum_scale_ : momentum;
-}
+double Ledger::relative(double momentum) const { return part_of(momentum_reference_, momentum); }
 
 Closure Ledger::side(const wire::Momentum& now, const wire::Momentum& start) const {
   Closure out;
@@ -75,9 +87,10 @@ double Ledger::interface_excess(const Balance& balance, const HandedOver& handed
   return relative(length(excess));
 }
 
-Balance Ledger::close(const wire::Report& impactor, const wire::Report& structure,
-                      const HandedOver& handed_over) const {
+Balance Ledger::close(const wire::Report& impactor, const wire::Report& structure, const HandedOver& handed_over) {
+  momentum_reference_ = std::max(momentum_reference_, length(handed_over.total()));
   Balance out;
+  out.momentum_reference = momentum_reference_;
   out.impactor = side(impactor.momentum(), impactor_start_);
   out.structure = side(structure.momentum(), structure_start_);
   const Vector given = minus(Vector{}, out.impactor.interface);
@@ -93,18 +106,20 @@ Balance Ledger::close(const wire::Report& impactor, const wire::Report& structur
 
 // The whole's change is the sum of the sides' errors and the mismatch, each of its own sign: the contacts' integration
 // loses what unequal steps at the interface may give back. So each has to be small by itself.
-void Ledger::close_energy(const wire::Report& impactor, const wire::Report& structure, Balance& out) const {
-  const double scale = initial_energy_ > 0.0 ? initial_energy_ : 1.0;  // at rest: J
-  out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
-  out.energy_change = (out.energy - initial_energy_) / scale;
-  out.impactor_energy = (own_energy(impactor.energy()) - impactor_start_energy_) / scale;
-  out.structure_energy = (own_energy(structure.energy()) - structure_start_energy_) / scale;
+void Ledger::close_energy(const wire::Report& impactor, const wire::Report& structure, Balance& out) {
   // Work on particles and work on the surface differ by what the contacts between them dissipate and store.
   const double given_work = find(impactor, observable::work_on_surface).value_or(-impactor.energy().interface_work());
-  out.interface_mismatch = given_work - structure.energy().interface_work();
+  const double taken_work = structure.energy().interface_work();
+  energy_reference_ = std::max({energy_reference_, std::abs(given_work), std::abs(taken_work)});
+  out.energy_reference = energy_reference_;
+  out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
+  out.energy_change = part_of(energy_reference_, out.energy - initial_energy_);
+  out.impactor_energy = part_of(energy_reference_, own_energy(impactor.energy()) - impactor_start_energy_);
+  out.structure_energy = part_of(energy_reference_, own_energy(structure.energy()) - structure_start_energy_);
+  out.interface_mismatch = given_work - taken_work;
   out.energy_drift = 0.0;
-  for (const double part :
-       {out.energy_change, out.impactor_energy, out.structure_energy, out.interface_mismatch / scale}) {
+  for (const double part : {out.energy_change, out.impactor_energy, out.structure_energy,
+                            part_of(energy_reference_, out.interface_mismatch)}) {
     out.energy_drift = std::max(out.energy_drift, std::abs(part));
   }
 }

@@ -12,10 +12,10 @@ struct Closure {
   Vector change{};      ///< N s, momentum now minus momentum at the start
   Vector interface {};  ///< N s, received through the surface
   Vector support{};     ///< N s, received from supports
-  double error = 0.0;   ///< |change - interface - support| over the initial momentum
+  double error = 0.0;   ///< |change - interface - support| over the reference
 };
 
-/// The ledgers at the end of one window. Pure numbers unless a unit is given.
+/// The ledgers at the end of one window. Pure numbers unless a unit is given: over the reference of momentum or energy.
 struct Balance {
   Closure impactor;
   Closure structure;
@@ -24,33 +24,42 @@ struct Balance {
   double momentum_error = 0.0;   ///< of the whole: change of both - supports - in flight, or the interface's, if larger
   double energy = 0.0;           ///< J: kinetic, stored and dissipated of both, less the supports' work
   double energy_change = 0.0;    ///< of the whole: energy less initial energy
-  double impactor_energy = 0.0;  ///< not explained by the work done on it through the surface, over initial energy
+  double impactor_energy = 0.0;  ///< not explained by the work done on it through the surface
   double structure_energy = 0.0;    ///< the same
   double interface_mismatch = 0.0;  ///< J: work on the surface as the impactor sees it, less as the structure does
-  double energy_drift = 0.0;  ///< largest of those four, over initial energy: gain in one must not hide loss in another
+  double energy_drift = 0.0;        ///< largest of those four: gain in one must not hide loss in another
+  double energy_reference = 0.0;    ///< J
+  double momentum_reference = 0.0;  ///< N s
 };
 
 /// Everything that one side still has, has lost to dissipation, or has passed to its supports, in J.
 [[nodiscard]] double energy_of(const wire::Energy& energy);
 
+/// What both sides weigh, kg (Ready.mass); 0 where it is not known.
+struct Masses {
+  double impactor = 0.0;
+  double structure = 0.0;
+};
+
+/// The references, so that errors are parts of what is there, also where nothing moves at the start (a prescribed
+/// load): the energy of the start or, if larger, the largest work handed over so far; the momentum of the start - at
+/// least what each side would have if all of its mass moved with the energy it has - or, if larger, the largest impulse
+/// handed over so far. Where both are zero, nothing has happened: an error is then all there is, i.e. 1.
 class Ledger {
  public:
   /// The reports of window 0 (or of the window at which a run continues). `equal_steps`: one impactor step per window;
   /// then the impactor, too, has taken up between all earlier windows' impulse and this one's.
-  Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps);
+  Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps, const Masses& masses = {});
 
-  /// Both reports belong to one window, `handed_over` to the same.
+  /// Both reports belong to one window, `handed_over` to the same; windows in order, for the references grow.
   [[nodiscard]] Balance close(const wire::Report& impactor, const wire::Report& structure,
-                              const HandedOver& handed_over) const;
-
-  [[nodiscard]] double initial_energy() const { return initial_energy_; }    ///< J
-  [[nodiscard]] double initial_momentum() const { return momentum_scale_; }  ///< N s, magnitude
+                              const HandedOver& handed_over);
 
  private:
   [[nodiscard]] Closure side(const wire::Momentum& now, const wire::Momentum& start) const;
   [[nodiscard]] double interface_excess(const Balance& balance, const HandedOver& handed_over) const;
   [[nodiscard]] double relative(double momentum) const;
-  void close_energy(const wire::Report& impactor, const wire::Report& structure, Balance& out) const;
+  void close_energy(const wire::Report& impactor, const wire::Report& structure, Balance& out);
 
   wire::Momentum impactor_start_;
   wire::Momentum structure_start_;
@@ -58,7 +67,8 @@ class Ledger {
   double structure_start_energy_;  // the same
   bool equal_steps_;
   double initial_energy_;
-  double momentum_scale_;
+  double energy_reference_;    // J
+  double momentum_reference_;  // N s
 };
 
 }  // namespace grainstep::ledger

@@ -9,7 +9,7 @@ namespace grainstep::ledger {
 
 SurfaceLoad::SurfaceLoad(const wire::Surface& surface, double depth)
     : depth_(depth), nodes_(static_cast<std::size_t>(surface.position_size()) / 2) {
-  std::vector<double> tributary(nodes_, 0.0);
+  std::vector<double> tributary(2 * nodes_, 0.0);
   for (int s = 0; s + 1 < surface.segment_size(); s += 2) {
     Segment segment{};
     for (int k = 0; k < 2; ++k) {
@@ -30,13 +30,16 @@ SurfaceLoad::SurfaceLoad(const wire::Surface& surface, double depth)
     segment.normal[1] = tangent[0] / segment.length;
     segment.middle = 0.5 * (at(0, 0) + at(1, 0));
     for (const std::size_t node : segment.node) {
-      tributary[node] += segment.length;
+      for (int axis = 0; axis < 2; ++axis) tributary[2 * node + axis] += segment.seen_along(axis);
     }
     segments_.push_back(segment);
   }
   for (Segment& segment : segments_) {
     for (int k = 0; k < 2; ++k) {
-      segment.share[k] = segment.length / tributary[segment.node[k]];
+      for (int axis = 0; axis < 2; ++axis) {
+        const double all = tributary[2 * segment.node[k] + axis];
+        segment.share[k][axis] = all > 0.0 ? segment.seen_along(axis) / all : 0.0;
+      }
     }
   }
 }
@@ -61,7 +64,7 @@ double SurfaceLoad::pressed(const Segment& segment, std::span<const double> impu
   double sum = 0.0;
   for (int k = 0; k < 2; ++k) {
     const std::size_t first = 2 * segment.node[k];
-    sum -= segment.share[k] * (impulse[first] * segment.normal[0] + impulse[first + 1] * segment.normal[1]);
+    for (int axis = 0; axis < 2; ++axis) sum -= segment.share[k][axis] * impulse[first + axis] * segment.normal[axis];
   }
   return sum;
 }

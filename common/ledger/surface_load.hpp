@@ -1,6 +1,7 @@
 /// @file Contact pressure on the undeformed surface: (4.3) per segment and (4.4) for the whole.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -9,8 +10,9 @@
 
 namespace grainstep::ledger {
 
-/// The undeformed surface in two dimensions. Impulse at a node is shared among the segments that meet there in
-/// proportion to their length, so that the segments' sum is the nodes' sum.
+/// The undeformed surface in two dimensions. Each component of an impulse at a node is shared among the segments that
+/// meet there in proportion to their length as seen along it, so that the segments' sum is the nodes' sum, and what
+/// presses on a face is not ascribed to the face around its corner.
 class SurfaceLoad {
  public:
   /// `depth` b in m. Throws InputError where topology and positions do not fit or a segment has no length.
@@ -31,10 +33,11 @@ class SurfaceLoad {
  private:
   struct Segment {
     std::size_t node[2];
-    double share[2];   // part of each node's impulse
-    double normal[2];  // outward
+    double share[2][2];  // part of each node's impulse, by component
+    double normal[2];    // outward
     double middle;
     double length;
+    [[nodiscard]] double seen_along(int axis) const { return length * std::abs(normal[axis]); }
   };
   [[nodiscard]] static double pressed(const Segment& segment, std::span<const double> impulse);
 

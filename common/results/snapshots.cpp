@@ -50,6 +50,7 @@ void Snapshots::add_arrays(const std::string& group, double time, const wire::Sn
 }
 
 void Snapshots::add(wire::Role side, double time, const wire::Snapshot& snapshot) {
+  if (snapshot.position().empty()) return;  // an impactor without particles has nothing to show
   Series& target = side == wire::IMPACTOR ? particles_ : structure_;
   char number[32];
   std::snprintf(number, sizeof number, "%04llu", static_cast<unsigned long long>(target.count++));

@@ -1,8 +1,10 @@
 #include "scene/groups.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/assert.hpp"
+#include "load/pressure_history.hpp"
 
 namespace grainstep::scene {
 
@@ -34,24 +36,60 @@ double seconds(const Instant& instant, double reference_time) {
   return instant.has_seconds() ? instant.seconds() : instant.t_bar() * reference_time;
 }
 
-Groups groups(const Scene& scene) {
-  GS_ASSERT(scene.structure().layers_size() > 0, "a structure without layers passed the loader");
+bool has_slug(const Scene& scene) {
+  return scene.impactor().type() != Impactor::TYPE_PRESSURE && scene.impactor().type() != Impactor::TYPE_NONE;
+}
+
+Span loaded_face(const Structure& structure) {
+  const double half_span = structure.half_span();
+  return {structure.extent() == Structure::EXTENT_FULL ? -half_span : 0.0, half_span};
+}
+
+Span common_part(const Span& whole, const Range& range) {
+  const double from = std::max(whole.from, range.from());
+  return {from, std::max(from, std::min(whole.to, range.to()))};
+}
+
+namespace {
+
+void add_slug(const Scene& scene, Groups& g) {
   const auto& slug = scene.impactor().slug();
-  const auto& face = scene.structure().layers(0);
   const double rho_bar = slug.relative_density();
   const double rho_s = slug.particle().density();
-  Groups g;
   const double tail_speed = slug.has_tail_speed() ? slug.tail_speed() : slug.speed();
   g.areal_momentum = areal_momentum(rho_bar, rho_s, slug.height(), 0.5 * (slug.speed() + tail_speed));
-  g.areal_mass = areal_mass(scene.structure());
-  g.impulse_number = impulse_number(g.areal_momentum, g.areal_mass, face.yield_strength(), face.density());
   g.areal_mass_ratio = areal_mass_ratio(rho_bar, rho_s, slug.height(), g.areal_mass);
   g.width_ratio = slug.half_width() / scene.structure().half_span();
-  g.reference_time = reference_time(scene.structure().half_span(), face.density(), face.yield_strength());
   g.slug_time = slug.height() / slug.speed();
   g.arrival = slug.stand_off() > 0 ? slug.stand_off() / slug.speed() : 0;
   g.loading_time_ratio = loading_time_ratio(g.slug_time, g.reference_time);
   g.slug_pressure = rho_bar * rho_s * slug.speed() * slug.speed();
+  g.loaded_width = (scene.structure().extent() == Structure::EXTENT_HALF ? 1.0 : 2.0) * slug.half_width();
+}
+
+void add_pressure(const Scene& scene, Groups& g) {
+  const auto& pressure = scene.impactor().pressure();
+  const Span face = loaded_face(scene.structure());
+  g.loaded_width = (pressure.has_patch() ? common_part(face, pressure.patch()) : face).length();
+  g.width_ratio = g.loaded_width / face.length();
+  const load::Moments moments = load::moments(pressure);
+  if (!std::isfinite(moments.impulse) || !(moments.impulse > 0.0)) return;
+  g.areal_momentum = moments.impulse;
+  g.loading_time_ratio = moments.mean_time / g.reference_time;
+}
+
+}  // namespace
+
+Groups groups(const Scene& scene) {
+  GS_ASSERT(scene.structure().layers_size() > 0, "a structure without layers passed the loader");
+  const auto& face = scene.structure().layers(0);
+  Groups g;
+  g.areal_mass = areal_mass(scene.structure());
+  g.reference_time = reference_time(scene.structure().half_span(), face.density(), face.yield_strength());
+  g.loaded_width = loaded_face(scene.structure()).length();
+  if (has_slug(scene)) add_slug(scene, g);
+  if (scene.impactor().type() == Impactor::TYPE_PRESSURE) add_pressure(scene, g);
+  g.impulse_number = impulse_number(g.areal_momentum, g.areal_mass, face.yield_strength(), face.density());
   g.end = seconds(scene.time().end(), g.reference_time);
   return g;
 }

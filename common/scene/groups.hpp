@@ -1,9 +1,15 @@
-/// @file The dimensionless groups of a slug that hits a structure (Liu et al. 2013, sections 3 and 4), and the scales
-/// that make times and pressures dimensionless. Pure functions, SI.
+/// @file The dimensionless groups of what loads a structure (Liu et al. 2013, sections 3 and 4), and the scales that
+/// make times and pressures dimensionless. Pure functions, SI.
+///
+/// A prescribed pressure has the groups that its impulse gives (I_o, and tau from the mean time of its impulse, which
+/// is (1/2) H/v0 for a slug); those of particles it has not. What a scene has not is not a number here and `null` in
+/// summary.json, never 0.
 ///
 /// A layered structure has one areal mass, the sum over its layers; rho_m and sigma_Y of the groups are those of its
 /// first (loaded) layer, which is the paper's reading for both the monolithic beam and the sandwich (face sheets).
 #pragma once
+
+#include <limits>
 
 #include "grainstep/scene.pb.h"
 
@@ -31,20 +37,37 @@ namespace grainstep::scene {
 /// t in seconds, whichever way it was given.
 [[nodiscard]] double seconds(const Instant& instant, double reference_time);
 
+/// Where a scene has no such group.
+inline constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+
 /// All of them for a scene.
 struct Groups {
-  double areal_momentum = 0;      ///< I0, kg/(m s)
-  double areal_mass = 0;          ///< m_b, kg/m^2
-  double impulse_number = 0;      ///< I_o
-  double areal_mass_ratio = 0;    ///< m_bar
-  double width_ratio = 0;         ///< a_bar = a/L
-  double loading_time_ratio = 0;  ///< tau; infinite for a slug at rest
-  double reference_time = 0;      ///< L sqrt(rho_m/sigma_Y), s
-  double slug_time = 0;           ///< H/v0, s: t_hat = 1; infinite for a slug at rest
-  double arrival = 0;             ///< stand_off/v0, s: first contact
-  double slug_pressure = 0;       ///< rho_bar rho_s v0^2, Pa: what contact pressure is measured in
-  double end = 0;                 ///< end of the run, s
+  double areal_momentum = absent;      ///< I0, kg/(m s) or Pa s
+  double areal_mass = 0;               ///< m_b, kg/m^2
+  double impulse_number = absent;      ///< I_o
+  double areal_mass_ratio = absent;    ///< m_bar
+  double width_ratio = absent;         ///< a_bar = a/L
+  double loading_time_ratio = absent;  ///< tau; infinite for a slug at rest
+  double reference_time = 0;           ///< L sqrt(rho_m/sigma_Y), s
+  double slug_time = absent;           ///< H/v0, s: t_hat = 1; infinite for a slug at rest
+  double arrival = 0;                  ///< stand_off/v0, s: first contact
+  double slug_pressure = absent;       ///< rho_bar rho_s v0^2, Pa: what contact pressure is measured in
+  double loaded_width = 0;             ///< m, along x1, of what is modelled: 2a of (4.4), or a of a half model
+  double end = 0;                      ///< end of the run, s
 };
+
+/// Whether the scene's impactor is described by its slug.
+[[nodiscard]] bool has_slug(const Scene& scene);
+
+/// The undeformed loaded face of what is modelled, m.
+struct Span {
+  double from = 0.0, to = 0.0;
+  [[nodiscard]] double length() const { return to - from; }
+};
+[[nodiscard]] Span loaded_face(const Structure& structure);
+
+/// The part of `whole` that lies in `range`; of no length where they do not meet.
+[[nodiscard]] Span common_part(const Span& whole, const Range& range);
 
 /// @pre a checked scene (load_scene): it has a layer, and lengths and densities are positive.
 [[nodiscard]] Groups groups(const Scene& scene);

@@ -45,6 +45,87 @@ void slug_moves(const Slug& slug, Findings& findings) {
   findings.push_back({Severity::warning, "impactor.slug.speed", "a slug at rest: nothing will hit the structure"});
 }
 
+/// What a type of impactor needs, and what it would not read. A slug may stay: scenes inherit it from what they
+/// include.
+void impactor_is_described(const Impactor& impactor, bool slug, Findings& findings) {
+  if (slug && !impactor.has_slug()) {
+    findings.push_back({Severity::error, "impactor",
+                        "required key 'slug' is missing: what hits, unless impactor.type is pressure or none"});
+  }
+  const bool pressure = impactor.type() == Impactor::TYPE_PRESSURE;
+  if (pressure && !impactor.has_pressure()) {
+    findings.push_back(
+        {Severity::error, "impactor", "required key 'pressure' is missing: impactor.type is pressure, but which?"});
+  }
+  if (!pressure && impactor.has_pressure()) {
+    findings.push_back({Severity::error, "impactor.pressure",
+                        "nobody would read it: impactor.type is not pressure; set it, or leave this out"});
+  }
+  if (impactor.has_pressure() && impactor.pressure().history_case() == Pressure::HISTORY_NOT_SET) {
+    findings.push_back(
+        {Severity::error, "impactor.pressure", "needs a history: one of rectangular, exponential, tabulated"});
+  }
+}
+
+void table_is_one(const TabulatedPulse& table, Findings& findings) {
+  if (table.time_size() != table.pressure_size()) {
+    findings.push_back({Severity::error, "impactor.pressure.tabulated.pressure",
+                        std::to_string(table.pressure_size()) + " pressures for " + std::to_string(table.time_size()) +
+                            " times; expected one for each"});
+  }
+  for (int k = 0; k + 1 < table.time_size(); ++k) {
+    if (table.time(k) < table.time(k + 1)) continue;
+    findings.push_back({Severity::error, "impactor.pressure.tabulated.time." + std::to_string(k + 1),
+                        rounded_text(table.time(k + 1)) + " s follows " + rounded_text(table.time(k)) +
+                            " s; times must increase strictly"});
+  }
+}
+
+/// `range`, if it is given, covers a part of `whole`.
+struct Cover {
+  bool given;
+  const Range& range;
+  Span whole;
+  std::string what;
+};
+
+void covers_a_part(const Cover& cover, const std::string& path, Findings& findings) {
+  if (!cover.given) return;
+  const std::string range = "from " + metres(cover.range.from()) + " to " + metres(cover.range.to());
+  if (!(cover.range.from() < cover.range.to())) {
+    findings.push_back({Severity::error, path, range + " has no length; expected from < to"});
+  } else if (!(common_part(cover.whole, cover.range).length() > 0.0)) {
+    findings.push_back({Severity::error, path,
+                        range + " lies beside " + cover.what + ", which reaches from " + metres(cover.whole.from) +
+                            " to " + metres(cover.whole.to)});
+  }
+}
+
+void velocities_apply(const Structure& structure, Findings& findings) {
+  const bool fixed = structure.type() == Structure::TYPE_RIGID && structure.motion() != Structure::MOTION_FREE;
+  if (fixed && structure.initial_velocity_size() > 0) {
+    findings.push_back({Severity::error, "structure.initial_velocity",
+                        "a rigid target that does not move has no velocity; set structure.motion to free"});
+  }
+  double thickness = 0.0;
+  for (const Layer& layer : structure.layers()) thickness += layer.thickness();
+  for (int i = 0; i < structure.initial_velocity_size(); ++i) {
+    const InitialVelocity& field = structure.initial_velocity(i);
+    const std::string path = "structure.initial_velocity." + std::to_string(i) + ".";
+    covers_a_part({field.has_patch(), field.patch(), loaded_face(structure), "the span"}, path + "patch", findings);
+    covers_a_part({field.has_depth(), field.depth(), {0.0, thickness}, "the thickness"}, path + "depth", findings);
+    if (!field.has_layer() || static_cast<int>(field.layer()) < structure.layers_size()) continue;
+    findings.push_back({Severity::error, path + "layer",
+                        "found " + std::to_string(field.layer()) + ", but the layers are counted from 0 to " +
+                            std::to_string(structure.layers_size() - 1)});
+  }
+}
+
+void motion_is_read(const Structure& structure, Findings& findings) {
+  if (structure.motion() != Structure::MOTION_FREE || structure.type() != Structure::TYPE_BEAM) return;
+  findings.push_back({Severity::error, "structure.motion", "a beam is clamped; only the type rigid can be free"});
+}
+
 void steps_meet(const Steps& steps, Findings& findings) {
   const auto& structure = steps.structure();
   if (structure.has_ratio() && !divides_evenly(structure.ratio())) {
@@ -74,10 +155,21 @@ void step_fits_run(const Step& step, const std::string& path, double end, Findin
 
 std::vector<Finding> check_rules(const Scene& scene) {
   Findings findings;
+  const bool slug = has_slug(scene);
+  impactor_is_described(scene.impactor(), slug, findings);
+  if (scene.impactor().pressure().has_tabulated()) table_is_one(scene.impactor().pressure().tabulated(), findings);
+  if (!findings.empty()) return findings;  // nothing more can be said without it
   const double end = groups(scene).end;
-  slug_holds_particles(scene.impactor().slug(), findings);
-  slug_meets_structure(scene, findings);
-  slug_moves(scene.impactor().slug(), findings);
+  if (slug) {
+    slug_holds_particles(scene.impactor().slug(), findings);
+    slug_meets_structure(scene, findings);
+    slug_moves(scene.impactor().slug(), findings);
+  }
+  const Pressure& pressure = scene.impactor().pressure();
+  covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},
+                "impactor.pressure.patch", findings);
+  motion_is_read(scene.structure(), findings);
+  velocities_apply(scene.structure(), findings);
   steps_meet(scene.steps(), findings);
   step_fits_run(scene.steps().impactor(), "steps.impactor", end, findings);
   step_fits_run(scene.steps().structure(), "steps.structure", end, findings);

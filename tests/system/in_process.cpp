@@ -6,8 +6,10 @@
 
 #include "base/error.hpp"
 #include "dem-service/impactor.hpp"
+#include "fe-service/load/prescribed_load.hpp"
 #include "fe-service/structure.hpp"
 #include "orchestrator/conduct.hpp"
+#include "orchestrator/participants.hpp"
 #include "orchestrator/preparation.hpp"
 #include "participant/serve.hpp"
 #include "transport/in_process_channel.hpp"
@@ -23,7 +25,11 @@ int run(const grainstep::orchestrator::RunOptions& options) {
   directory.prepare(results::Existing::refuse);
   auto [impactor, impactor_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "impactor"});
   auto [structure, structure_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "structure"});
-  std::thread particles([end = std::move(impactor_end)] {
+  std::thread particles([&preparation, end = std::move(impactor_end)] {
+    if (!orchestrator::has_particles(preparation.scene)) {
+      fe::PrescribedLoad load;
+      return static_cast<void>(participant::serve_impactor(*end, load));
+    }
     const auto backend = dem::make_impactor({});
     static_cast<void>(participant::serve_impactor(*end, *backend));
   });

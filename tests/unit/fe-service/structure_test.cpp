@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "fe-service/preview.hpp"
 #include "fe-service/rigid.hpp"
+#include "participant/schedule.hpp"
 
 namespace grainstep::fe {
 namespace {
@@ -271,7 +272,7 @@ TEST(Rigid, GivesToItsSupportsWhatItReceives) {
   structure.set_type(scene::Structure::TYPE_RIGID);
   const Record result = run(structure, 1e-6, 1, 100);
   EXPECT_EQ(result.ready.size(), 0u);
-  EXPECT_EQ(result.ready.stable_step(), kNoStepLimit);
+  EXPECT_EQ(result.ready.stable_step(), participant::no_step_limit);
   double sent = 0.0;
   for (std::uint64_t n = 0; n < 60; ++n) {
     for (int k = 0; k < 3; ++k) sent += forces_of(n, 3).impulse(2 * k + 1);

@@ -43,17 +43,17 @@ TEST(ImpulseSums, KeepWhatCameBeforeApartFromTheLatest) {
 
 // Equal steps: windows give -1 (half a step) and -3; at t(1) both sides have taken up the first and half of the second.
 TEST(Ledger, EqualStepsCloseWithNothingInFlight) {
-  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
+  Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
   const auto sums = sums_of({-1.0, -3.0});
   const Balance b = ledger.close(report_of({-7.5, 2.5}), report_of({-2.5, -2.5}), sums.handed_over());
   EXPECT_EQ(b.in_flight[1], 0.0);
   EXPECT_EQ(b.momentum_error, 0.0);
   EXPECT_DOUBLE_EQ(b.impactor.change[1], 2.5);
-  EXPECT_DOUBLE_EQ(ledger.initial_momentum(), 10.0);
+  EXPECT_DOUBLE_EQ(b.momentum_reference, 10.0);
 }
 
 TEST(Ledger, SupportsAreNotAnError) {
-  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
+  Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
   const auto sums = sums_of({-1.0, -3.0});
   const Balance b = ledger.close(report_of({-7.5, 2.5}), report_of({-1.5, -2.5, 1.0}), sums.handed_over());
   EXPECT_EQ(b.momentum_error, 0.0);
@@ -61,7 +61,7 @@ TEST(Ledger, SupportsAreNotAnError) {
 
 // Two steps per window: the impactor has given all but half its last step (-4 + 0.5), the structure half a window.
 TEST(Ledger, UnequalStepsShowWhatIsInFlightAndDoNotCountItAsError) {
-  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), false);
+  Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), false);
   const auto sums = sums_of({-1.0, -3.0});
   const Balance b = ledger.close(report_of({-6.5, 3.5}), report_of({-2.5, -2.5}), sums.handed_over());
   EXPECT_DOUBLE_EQ(b.in_flight[1], -1.0);
@@ -69,7 +69,7 @@ TEST(Ledger, UnequalStepsShowWhatIsInFlightAndDoNotCountItAsError) {
 }
 
 TEST(Ledger, MoreThanTheMessagesCarriedCannotHideInFlight) {
-  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), false);
+  Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), false);
   const auto sums = sums_of({-1.0, -3.0});
   const Balance b = ledger.close(report_of({-6.5, 3.5}), report_of({-0.5, -0.5}), sums.handed_over());
   EXPECT_DOUBLE_EQ(b.interface_momentum, 0.05);  // -0.5 lies 0.5 outside [-4, -1]
@@ -77,7 +77,7 @@ TEST(Ledger, MoreThanTheMessagesCarriedCannotHideInFlight) {
 }
 
 TEST(Ledger, LostMomentumIsAnErrorOfItsSide) {
-  const Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
+  Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
   const auto sums = sums_of({-1.0, -3.0});
   const Balance b = ledger.close(report_of({-7.5, 2.5}), report_of({-2.4, -2.5}), sums.handed_over());
   EXPECT_NEAR(b.structure.error, 0.01, 1e-15);
@@ -134,6 +134,63 @@ TEST(Ledger, GainAtTheInterfaceDoesNotHideLossInASide) {
   EXPECT_DOUBLE_EQ(b.structure_energy, 0.005);
   EXPECT_DOUBLE_EQ(b.interface_mismatch, -2.0);
   EXPECT_DOUBLE_EQ(b.energy_drift, 0.03);
+}
+
+// A prescribed load: nothing moves at the start, and what it gives to the structure comes from outside.
+wire::Report load_report(double impulse, double work) {
+  wire::Report out = report_of({0.0, impulse, -impulse});
+  out.mutable_energy()->set_interface_work(-work);
+  out.mutable_energy()->set_support_work(work);
+  return out;
+}
+
+wire::Report moved_report(double momentum, double work, double energy) {
+  wire::Report out = report_of({momentum, momentum});
+  out.mutable_energy()->set_kinetic(energy);
+  out.mutable_energy()->set_interface_work(work);
+  return out;
+}
+
+TEST(Ledger, WithNothingAtTheStartTheReferenceIsWhatWasHandedOverAtMost) {
+  Ledger ledger(load_report(0.0, 0.0), report_of({0.0, 0.0}), true);
+  // 4 N s and 10 J have been handed over; 0.1 J of them cannot be found in the structure.
+  Balance b = ledger.close(load_report(4.0, 10.0), moved_report(-4.0, 10.0, 9.9), sums_of({-3.0, -2.0}).handed_over());
+  EXPECT_EQ(b.energy_reference, 10.0);
+  EXPECT_EQ(b.momentum_reference, 5.0);
+  EXPECT_EQ(b.momentum_error, 0.0);
+  EXPECT_NEAR(b.energy_drift, 0.01, 1e-15);
+  EXPECT_NEAR(b.structure_energy, -0.01, 1e-15);
+  EXPECT_EQ(b.impactor_energy, 0.0);
+  // All of it comes back; the reference stays, so that a small rest is not compared with nothing.
+  b = ledger.close(load_report(0.0, 0.0), moved_report(0.0, 0.0, 0.1), sums_of({-3.0, 3.0}).handed_over());
+  EXPECT_EQ(b.energy_reference, 10.0);
+  EXPECT_NEAR(b.energy_drift, 0.01, 1e-15);
+}
+
+TEST(Ledger, ALoadThatClaimsOtherWorkThanTheStructureReceivedIsSeen) {
+  Ledger ledger(load_report(0.0, 0.0), report_of({0.0, 0.0}), true);
+  const Balance b = ledger.close(load_report(4.0, 11.0), moved_report(-4.0, 10.0, 10.0), sums_of({-4.0}).handed_over());
+  EXPECT_NEAR(b.interface_mismatch, 1.0, 1e-15);
+  EXPECT_NEAR(b.energy_drift, 1.0 / 11.0, 1e-15);
+}
+
+// Two halves that swing against each other have no momentum together; what their mass could have is the reference.
+TEST(Ledger, OppositeMomentaAreNotComparedWithTheirSum) {
+  const auto at_rest = report_of({0.0, 0.0});
+  auto swinging = report_of({1e-18, 0.0});
+  swinging.mutable_energy()->set_kinetic(50.0);
+  Ledger ledger(at_rest, swinging, true, {.impactor = 0.0, .structure = 4.0});
+  const Balance b = ledger.close(at_rest, swinging, sums_of({0.0}).handed_over());
+  EXPECT_DOUBLE_EQ(b.momentum_reference, 20.0);  // sqrt(2 * 4 kg * 50 J)
+}
+
+TEST(Ledger, WhatComesFromNothingIsAllThereIs) {
+  const auto rest = report_of({0.0, 0.0});
+  auto moving = report_of({1e-20, 0.0});
+  moving.mutable_energy()->set_kinetic(1e-30);
+  const Balance b = Ledger(rest, rest, true).close(rest, moving, sums_of({0.0}).handed_over());
+  EXPECT_EQ(b.momentum_error, 1.0);
+  EXPECT_EQ(b.energy_drift, 1.0);
 }
 
 TEST(Ledger, ARunAtRestHasNoScaleAndNoDivisionByZero) {

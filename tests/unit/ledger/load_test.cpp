@@ -40,6 +40,18 @@ TEST(SurfaceLoad, SegmentsAddUpToTheNodes) {
   EXPECT_NEAR(load.normal_impulse(impulse), 20.5, 1e-13);
 }
 
+// A face from 0 to 2 and, around its corner, an end face down to -1: a push down on the corner presses the face alone.
+TEST(SurfaceLoad, APushOnACornerPressesTheFaceThatItPointsTo) {
+  wire::Surface surface;
+  for (const double x : {0.0, 0.0, 2.0, 0.0, 2.0, -1.0}) surface.add_position(x);
+  for (const unsigned node : {0U, 1U, 1U, 2U}) surface.add_segment(node);
+  const SurfaceLoad load(surface, kDepth);
+  const std::array impulse{0.0, 0.0, -3.0, -4.0, 0.0, 0.0};
+  const auto per_area = load.impulse_per_area(impulse);
+  EXPECT_DOUBLE_EQ(per_area[0], 4.0 / (2.0 * kDepth));
+  EXPECT_DOUBLE_EQ(per_area[1], 3.0 / (1.0 * kDepth));
+}
+
 TEST(SurfaceLoad, RefusesTopologyThatDoesNotFit) {
   auto wrong = flat();
   wrong.set_segment(3, 9);

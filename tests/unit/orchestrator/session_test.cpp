@@ -128,7 +128,7 @@ ledger::Balance last_balance(Stage& stage) {
   for (const wire::Forces& forces : w.forces_) {
     sums.add({forces.impulse().data(), static_cast<std::size_t>(forces.impulse_size())});
   }
-  const ledger::Ledger ledger(w.impactor_.front(), w.structure_.front(), stage.plan_->impactor_steps == 1);
+  ledger::Ledger ledger(w.impactor_.front(), w.structure_.front(), stage.plan_->impactor_steps == 1);
   return ledger.close(w.impactor_.back(), w.structure_.back(), sums.handed_over());
 }
 

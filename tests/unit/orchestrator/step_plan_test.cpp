@@ -55,6 +55,48 @@ TEST(StepPlan, AFasterStructureTakesSeveralSteps) {
   EXPECT_DOUBLE_EQ(plan.structure_step, 0.8e-8);
 }
 
+constexpr SideSteps no_limit{.stable = std::numeric_limits<double>::max(),
+                             .preferred = std::numeric_limits<double>::max()};
+
+StepPlan following(const scene::Scene& scene, SideSteps structure = {.stable = 1e-7, .preferred = 0.9e-7}) {
+  return plan_steps(scene, 3e-3, no_limit, structure);
+}
+
+TEST(StepPlan, AnImpactorWithoutStepsFollowsTheStructure) {
+  const StepPlan plan = following(automatic());
+  EXPECT_EQ(plan.impactor_steps, 1U);
+  EXPECT_EQ(plan.structure_steps, 1U);
+  EXPECT_DOUBLE_EQ(plan.window, 0.9e-7);
+  EXPECT_FALSE(plan.structure_fixed);
+}
+
+TEST(StepPlan, AnImpactorWithoutStepsFollowsWhatTheSceneAsksOfTheStructure) {
+  scene::Scene scene = automatic();
+  scene.mutable_steps()->mutable_structure()->set_seconds(0.5e-7);
+  EXPECT_DOUBLE_EQ(following(scene).window, 0.5e-7);
+  scene.mutable_steps()->mutable_structure()->set_ratio(3.0);
+  EXPECT_EQ(following(scene).impactor_steps, 3U);
+  EXPECT_DOUBLE_EQ(following(scene).structure_step, 0.9e-7);
+  scene.mutable_steps()->mutable_structure()->set_ratio(0.5);
+  EXPECT_EQ(following(scene).structure_steps, 2U);
+  EXPECT_DOUBLE_EQ(following(scene).structure_step, 0.9e-7);
+}
+
+TEST(StepPlan, AnImpactorWithoutStepsMayBeGivenOne) {
+  scene::Scene scene = automatic();
+  scene.mutable_steps()->mutable_impactor()->set_seconds(2e-7);
+  EXPECT_EQ(following(scene).structure_steps, 3U);
+  EXPECT_DOUBLE_EQ(following(scene).window, 2e-7);
+  scene.mutable_steps()->mutable_impactor()->set_ratio(20.0);
+  EXPECT_THROW(static_cast<void>(following(scene)), InputError);  // of what contact time?
+}
+
+TEST(StepPlan, WhereNeitherSideHasALimitTheRunIsDividedInAThousand) {
+  const StepPlan plan = following(automatic(), no_limit);
+  EXPECT_EQ(plan.windows, 1000U);
+  EXPECT_DOUBLE_EQ(plan.window, 3e-6);
+}
+
 TEST(StepPlan, AWindowIsNoLongerThanAContact) {
   EXPECT_EQ(with_structure(std::numeric_limits<double>::max()).impactor_steps, 10U);  // a rigid target
   EXPECT_EQ(with_structure(1e-3).structure_steps, 1U);

@@ -47,5 +47,38 @@ TEST(Groups, ASlugAtRestTakesForEver) {
   EXPECT_EQ(g.impulse_number, 0);
 }
 
+/// The reference beam, with another load.
+std::string loaded(const std::string& impactor) {
+  const std::string& scene = minimal_scene;
+  const auto from = scene.find("impactor:");
+  const auto to = scene.find("structure:");
+  return scene.substr(0, from) + "impactor: " + impactor + "\n" + scene.substr(to);
+}
+
+// The slug's impulse as a rectangle of its duration: the slug's I_o and tau.
+TEST(Groups, APulseHasTheGroupsOfItsImpulse) {
+  const Groups g =
+      groups(load_text(loaded("{type: pressure, pressure: {patch: {from: 0 m, to: 0.1 m}, "
+                              "rectangular: {pressure: 86.4 MPa, duration: 0.75 ms}}}")));
+  const Groups slug = groups(load_text(minimal_scene));
+  EXPECT_NEAR(g.impulse_number, slug.impulse_number, 1e-12);
+  EXPECT_NEAR(g.loading_time_ratio, slug.loading_time_ratio, 1e-12);
+  EXPECT_DOUBLE_EQ(g.width_ratio, 0.2);
+  EXPECT_DOUBLE_EQ(g.loaded_width, 0.1);
+  EXPECT_DOUBLE_EQ(slug.loaded_width, 0.1);
+  for (const double none : {g.areal_mass_ratio, g.slug_time, g.slug_pressure}) EXPECT_TRUE(std::isnan(none));
+}
+
+TEST(Groups, WhatHasNoImpulseHasNoImpulseNumber) {
+  for (const char* impactor : {"{type: none}", "{type: pressure, pressure: {rectangular: {pressure: 1 MPa}}}",
+                               "{type: pressure, pressure: {rectangular: {pressure: 0 Pa, duration: 1 s}}}"}) {
+    const Groups g = groups(load_text(loaded(impactor)));
+    for (const double none : {g.impulse_number, g.loading_time_ratio, g.areal_momentum, g.slug_time}) {
+      EXPECT_TRUE(std::isnan(none)) << impactor;
+    }
+    EXPECT_DOUBLE_EQ(g.loaded_width, 0.5) << impactor;  // all of the face
+  }
+}
+
 }  // namespace
 }  // namespace grainstep::scene

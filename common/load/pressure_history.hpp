@@ -1,0 +1,22 @@
+/// @file A prescribed pressure over time, and its integrals in closed form. Pure, SI; t = 0 is the start of the run.
+#pragma once
+
+#include "grainstep/scene.pb.h"
+
+namespace grainstep::load {
+
+/// Integral of the pressure from one time to a later one, Pa s. Exact but for round-off, whatever the interval: what
+/// is handed over in steps adds up to the history's own impulse.
+[[nodiscard]] double impulse(const scene::Pressure& pressure, double from, double to);
+
+/// The pressure at a time, Pa; at a jump, its value after it.
+[[nodiscard]] double pressure_at(const scene::Pressure& pressure, double time);
+
+/// What a history amounts to.
+struct Moments {
+  double impulse = 0.0;    ///< I0, integral of p, Pa s; infinite where it never ends
+  double mean_time = 0.0;  ///< integral of t p over I0, s; not finite where I0 is zero or infinite
+};
+[[nodiscard]] Moments moments(const scene::Pressure& pressure);
+
+}  // namespace grainstep::load

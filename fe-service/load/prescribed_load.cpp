@@ -1,0 +1,138 @@
+#include "fe-service/load/prescribed_load.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "fe-service/windows.hpp"
+#include "load/pressure_history.hpp"
+#include "participant/schedule.hpp"
+
+namespace grainstep::fe {
+wire::Hello PrescribedLoad::describe() const {
+  wire::Hello hello;
+  hello.set_protocol(wire::PROTOCOL_VERSION);
+  hello.set_role(wire::IMPACTOR);
+  hello.set_backend("grainstep-fe (prescribed load)");
+  hello.set_version(GRAINSTEP_VERSION);
+  hello.set_dimension(2);
+  for (const char* capability : {"pressure", "none", "plane_strain"}) hello.add_capabilities(capability);
+  hello.set_process(static_cast<std::uint64_t>(getpid()));
+  return hello;
+}
+
+wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
+  if (!setup.has_impactor()) throw InputError("setup: started as an impactor, but was sent a structure's part");
+  if (setup.symmetry() != scene::SYMMETRY_PLANE_STRAIN)
+    throw InputError("symmetry: a prescribed load knows `plane_strain` only");
+  const scene::Impactor& impactor = setup.impactor().impactor();
+  const wire::Surface& surface = setup.impactor().surface();
+  if (impactor.type() == scene::Impactor::TYPE_PRESSURE) {
+    pressure_ = impactor.pressure();
+    patch_.emplace(surface, impactor.pressure());
+  } else if (impactor.type() != scene::Impactor::TYPE_NONE) {
+    throw InputError("impactor.type: grainstep-fe plays `pressure` and `none`; a slug is computed by grainstep-dem");
+  }
+  depth_ = setup.depth();
+  now_.assign(surface.position().begin(), surface.position().end());
+  velocity_.assign(surface.velocity().begin(), surface.velocity().end());
+  velocity_.resize(now_.size(), 0.0);
+  for (Doubles* nodal : {&before_, &between_, &impulse_, &last_step_}) *nodal = Doubles(now_.size(), 0.0);
+  wire::Ready ready;
+  ready.set_scene_hash(setup.scene_hash());
+  ready.set_stable_step(participant::no_step_limit);
+  ready.set_preferred_step(participant::no_step_limit);
+  return ready;
+}
+
+double PrescribedLoad::step_impulse(std::uint64_t step) const {
+  const double time = static_cast<double>(step);
+  return load::impulse(*pressure_, std::max(0.0, time - 0.5) * step_, (time + 0.5) * step_);
+}
+
+/// The impulses of the steps that end in this window; that of the last one, which stands at t(n), also by itself.
+void PrescribedLoad::evaluate(std::uint64_t window) {
+  std::fill(impulse_.begin(), impulse_.end(), 0.0);
+  std::fill(last_step_.begin(), last_step_.end(), 0.0);
+  const std::uint32_t steps = window == 0 ? 1 : steps_;
+  for (std::uint32_t k = 1; pressure_ && k < steps; ++k) {
+    const double part = static_cast<double>(k) / steps;
+    for (std::size_t i = 0; i < now_.size(); ++i) between_[i] = before_[i] + part * (now_[i] - before_[i]);
+    patch_->press(step_impulse((window - 1) * steps_ + k), depth_, between_, impulse_);
+  }
+  if (pressure_) patch_->press(step_impulse(window * steps_), depth_, now_, last_step_);
+  for (std::size_t i = 0; i < now_.size(); ++i) impulse_[i] += last_step_[i];
+}
+
+/// Up to t(n): what the steps before it gave, and the half of the step around it that lies behind. The whole of the
+/// first, half step lies ahead.
+void PrescribedLoad::account(std::uint64_t window) {
+  const double ahead = window == 0 ? 1.0 : 0.5;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const double behind = impulse_[i] - ahead * last_step_[i];
+    counted_[i % 2] += behind;
+    work_ += behind * velocity_[i];
+  }
+}
+
+/// The surface at the end of the window that has just passed, and what was still ahead of the step at its start. The
+/// structure pairs the two halves of an impulse with the velocities before and after it; so does this side.
+void PrescribedLoad::take(const wire::Kinematics& surface) {
+  const bool first = surface.window() == 1;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const double coming = surface.velocity(static_cast<int>(i));
+    counted_[i % 2] += (first ? 1.0 : 0.5) * last_step_[i];
+    work_ += 0.5 * last_step_[i] * (first ? velocity_[i] + coming : coming);
+  }
+  before_.swap(now_);
+  now_.assign(surface.position().begin(), surface.position().end());
+  velocity_.assign(surface.velocity().begin(), surface.velocity().end());
+}
+
+void PrescribedLoad::run(const wire::Start& start, participant::ImpactorLink& link) {
+  check_start(start);
+  steps_ = start.impactor_steps();
+  step_ = start.window() / steps_;
+  wire::Forces forces;
+  for (std::uint64_t window = 0; window <= start.windows(); ++window) {
+    if (window > 0) {
+      const wire::Kinematics* surface = link.surface(window);
+      if (surface == nullptr) return;
+      take(*surface);
+    }
+    evaluate(window);
+    forces.set_window(window);
+    forces.mutable_impulse()->Assign(impulse_.begin(), impulse_.end());
+    link.send(forces);
+    account(window);
+    const participant::Due due = link.due(window);
+    if (due.report) send_report(window, link);
+    if (due.snapshot) {
+      wire::Snapshot nothing_to_see;
+      nothing_to_see.set_window(window);
+      link.send(nothing_to_see);
+    }
+  }
+}
+
+void PrescribedLoad::send_report(std::uint64_t window, participant::ImpactorLink& link) const {
+  wire::Report report;
+  report.set_window(window);
+  report.mutable_energy()->set_interface_work(-work_);
+  report.mutable_energy()->set_support_work(work_);
+  for (const double given : counted_) {
+    report.mutable_momentum()->add_linear(0.0);
+    report.mutable_momentum()->add_interface_impulse(-given);
+    report.mutable_momentum()->add_support_impulse(given);
+  }
+  if (pressure_) {
+    const double time = static_cast<double>(window * steps_) * step_;
+    add_observable(report, "prescribed_pressure", "Pa", load::pressure_at(*pressure_, time));
+  }
+  add_observable(report, "work_on_surface", "J", work_);
+  report.mutable_timing()->set_steps(window * steps_);
+  link.send(report);
+}
+
+}  // namespace grainstep::fe
