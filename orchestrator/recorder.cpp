@@ -129,7 +129,9 @@ void Recorder::write_row(std::uint64_t window, const Pending& row) {
 void Recorder::remember(std::uint64_t window, const Pending& row, const ledger::Balance& balance) {
   findings_.final_time = time_of(window);
   findings_.transmitted = row.transmitted;
-  findings_.energy_drift = std::max(findings_.energy_drift, balance.energy_drift);
+  unexplained_ = std::max(unexplained_, balance.energy_drift * balance.energy_reference);
+  findings_.energy_drift =
+      balance.energy_reference > 0.0 ? unexplained_ / balance.energy_reference : balance.energy_drift;
   findings_.momentum_error = std::max(findings_.momentum_error, balance.momentum_error);
   findings_.peak_deflection = ledger::find(*row.structure, ledger::observable::peak_deflection).value_or(0.0);
   findings_.peak_deflection_time = ledger::find(*row.structure, ledger::observable::peak_deflection_time).value_or(0.0);

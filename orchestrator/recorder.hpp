@@ -22,7 +22,7 @@ namespace grainstep::orchestrator {
 /// What a summary needs to know of a run, whole or not.
 struct Findings {
   double final_time = 0.0;              ///< s, of the last row
-  double energy_drift = 0.0;            ///< largest of the rows
+  double energy_drift = 0.0;            ///< largest of the rows, over the last row's reference
   double momentum_error = 0.0;          ///< largest of the rows
   double transmitted = 0.0;             ///< Pa s, at the last row
   std::optional<double> early_impulse;  ///< Pa s, between t_hat 0.05 and 0.3
@@ -87,6 +87,7 @@ class Recorder final : public StepObserver {
   std::uint64_t profile_window_ = 0;
   std::vector<double> profile_mark_;  // nodal impulse received up to the last profile
   transport::Clock::time_point flushed_;
+  double unexplained_ = 0.0;  // J, largest of the rows
   Findings findings_;
 };
 

@@ -13,6 +13,7 @@ void ImpulseSums::add(std::span<const double> impulse) {
     sums_.latest[i % dimension_] += impulse[i];
     magnitude += std::abs(impulse[i]);
   }
+  if (magnitude > 0.0) ++sums_.acting;
   sums_.peak = std::max(sums_.peak, magnitude);
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace grainstep::ledger {
@@ -11,9 +12,10 @@ using Vector = std::array<double, 3>;  ///< x1, x2, x3; the third stays zero in 
 
 /// The impulses up to one window n, in N s, positive along the axes, of the force on the structure.
 struct HandedOver {
-  Vector before{};    ///< sum over windows 0..n-1
-  Vector latest{};    ///< window n alone
-  double peak = 0.0;  ///< largest sum over nodes of |impulse| of any window up to n
+  Vector before{};           ///< sum over windows 0..n-1
+  Vector latest{};           ///< window n alone
+  std::uint64_t acting = 0;  ///< windows up to n in which there was any impulse
+  double peak = 0.0;         ///< largest sum over nodes of |impulse| of any window up to n
 
   [[nodiscard]] Vector total() const { return {before[0] + latest[0], before[1] + latest[1], before[2] + latest[2]}; }
 };

@@ -40,6 +40,8 @@ double part_of(double reference, double error) {
   return error == 0.0 ? 0.0 : std::copysign(1.0, error);
 }
 
+constexpr double measuring_windows = 10.0;
+
 /// N s: the most that a mass with this kinetic energy can have.
 double largest_momentum(double mass, const wire::Energy& energy) {
   return std::sqrt(2.0 * mass * std::max(0.0, energy.kinetic()));
@@ -54,7 +56,6 @@ Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool
       structure_start_energy_(own_energy(structure.energy())),
       equal_steps_(equal_steps),
       initial_energy_(energy_of(impactor.energy()) + energy_of(structure.energy())),
-      energy_reference_(initial_energy_),
       momentum_reference_(
           std::max(length(plus(vector_of(impactor_start_.linear()), vector_of(structure_start_.linear()))),
                    largest_momentum(masses.impactor, impactor.energy()) +
@@ -100,26 +101,28 @@ Balance Ledger::close(const wire::Report& impactor, const wire::Report& structur
   const double whole = relative(length(plus(minus(change, supports), out.in_flight)));
   out.interface_momentum = interface_excess(out, handed_over);
   out.momentum_error = std::max({whole, out.interface_momentum, out.impactor.error, out.structure.error});
-  close_energy(impactor, structure, out);
+  close_energy(impactor, structure, handed_over.acting, out);
   return out;
 }
 
 // The whole's change is the sum of the sides' errors and the mismatch, each of its own sign: the contacts' integration
 // loses what unequal steps at the interface may give back. So each has to be small by itself.
-void Ledger::close_energy(const wire::Report& impactor, const wire::Report& structure, Balance& out) {
+void Ledger::close_energy(const wire::Report& impactor, const wire::Report& structure, std::uint64_t acting,
+                          Balance& out) {
   // Work on particles and work on the surface differ by what the contacts between them dissipate and store.
   const double given_work = find(impactor, observable::work_on_surface).value_or(-impactor.energy().interface_work());
   const double taken_work = structure.energy().interface_work();
-  energy_reference_ = std::max({energy_reference_, std::abs(given_work), std::abs(taken_work)});
-  out.energy_reference = energy_reference_;
+  largest_work_ = std::max({largest_work_, std::abs(given_work), std::abs(taken_work)});
+  const double growth = std::max(1.0, measuring_windows / static_cast<double>(std::max<std::uint64_t>(1, acting)));
+  out.energy_reference = largest_work_ > initial_energy_ ? largest_work_ * growth : initial_energy_;
   out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
-  out.energy_change = part_of(energy_reference_, out.energy - initial_energy_);
-  out.impactor_energy = part_of(energy_reference_, own_energy(impactor.energy()) - impactor_start_energy_);
-  out.structure_energy = part_of(energy_reference_, own_energy(structure.energy()) - structure_start_energy_);
+  out.energy_change = part_of(out.energy_reference, out.energy - initial_energy_);
+  out.impactor_energy = part_of(out.energy_reference, own_energy(impactor.energy()) - impactor_start_energy_);
+  out.structure_energy = part_of(out.energy_reference, own_energy(structure.energy()) - structure_start_energy_);
   out.interface_mismatch = given_work - taken_work;
   out.energy_drift = 0.0;
   for (const double part : {out.energy_change, out.impactor_energy, out.structure_energy,
-                            part_of(energy_reference_, out.interface_mismatch)}) {
+                            part_of(out.energy_reference, out.interface_mismatch)}) {
     out.energy_drift = std::max(out.energy_drift, std::abs(part));
   }
 }

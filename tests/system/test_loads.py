@@ -21,7 +21,9 @@ class FreeMass(unittest.TestCase):
     """Newton: M v = p t A, with a pulse that ends within a step, at any ratio of steps."""
 
     def test_velocity_is_impulse_over_mass_and_every_ledger_closes(self):
-        for steps in ((), ("--set", "steps.structure=4"), ("--set", "steps.structure=0.25"),
+        # A pulse of 20 windows: unequal steps hand over a part of a window late, which costs work, but no momentum.
+        coarse = ("--set", "guards.energy_drift=1", "--set")
+        for steps in ((), (*coarse, "steps.structure=4"), (*coarse, "steps.structure=0.25"),
                       ("--set", "structure.extent=full"), ("--set", "impactor.pressure.patch={from: 0.03 m, to: 0.2 m}")):
             with self.subTest(steps), finished(*steps, scene="free-mass.yaml") as run:
                 summary = run.summary()
@@ -36,7 +38,7 @@ class FreeMass(unittest.TestCase):
                 self.assertAlmostEqual(energy / (0.5 * mass * velocity**2), 1.0, delta=ROUND_OFF)
                 self.assertLess(summary["momentum_error"], ROUND_OFF)
                 self.assertAlmostEqual(summary["transmitted_impulse"], 1.0, delta=ROUND_OFF)
-                if not any("steps." in word for word in steps):  # unequal steps cost work at the interface
+                if not any("steps." in word for word in steps):
                     self.assertLess(summary["energy_drift"], ROUND_OFF)
 
     def test_the_way_is_that_of_the_closed_form(self):
@@ -98,7 +100,7 @@ class Beams(unittest.TestCase):
                 time, w = file["series/time"][()], file["series/structure/deflection"][()]
             k = np.flatnonzero((w[1:] < 0) & (w[:-1] >= 0))[0]
             crossing = time[k] + (time[k + 1] - time[k]) * w[k] / (w[k] - w[k + 1])
-            # 1%: four elements through the thickness (tests/convergence/fe_beam_frequency.cpp measures their order)
+            # 1%: eight elements through the thickness (tests/convergence/fe_beam_frequency.cpp measures their order)
             self.assertAlmostEqual(crossing / 2.818e-3, 1.0, delta=0.01)
             self.assertAlmostEqual(w.max() / 8.9e-6, 1.0, delta=0.015)
             self.assertLess(run.summary()["energy_drift"], 1e-6)

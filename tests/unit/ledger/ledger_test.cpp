@@ -153,8 +153,11 @@ wire::Report moved_report(double momentum, double work, double energy) {
 
 TEST(Ledger, WithNothingAtTheStartTheReferenceIsWhatWasHandedOverAtMost) {
   Ledger ledger(load_report(0.0, 0.0), report_of({0.0, 0.0}), true);
-  // 4 N s and 10 J have been handed over; 0.1 J of them cannot be found in the structure.
-  Balance b = ledger.close(load_report(4.0, 10.0), moved_report(-4.0, 10.0, 9.9), sums_of({-3.0, -2.0}).handed_over());
+  // 4 N s and 10 J have been handed over for long; 0.1 J of them cannot be found in the structure.
+  HandedOver given = sums_of({-3.0, -2.0}).handed_over();
+  EXPECT_EQ(given.acting, 2U);
+  given.acting = 50;
+  Balance b = ledger.close(load_report(4.0, 10.0), moved_report(-4.0, 10.0, 9.9), given);
   EXPECT_EQ(b.energy_reference, 10.0);
   EXPECT_EQ(b.momentum_reference, 5.0);
   EXPECT_EQ(b.momentum_error, 0.0);
@@ -162,16 +165,28 @@ TEST(Ledger, WithNothingAtTheStartTheReferenceIsWhatWasHandedOverAtMost) {
   EXPECT_NEAR(b.structure_energy, -0.01, 1e-15);
   EXPECT_EQ(b.impactor_energy, 0.0);
   // All of it comes back; the reference stays, so that a small rest is not compared with nothing.
-  b = ledger.close(load_report(0.0, 0.0), moved_report(0.0, 0.0, 0.1), sums_of({-3.0, 3.0}).handed_over());
+  b = ledger.close(load_report(0.0, 0.0), moved_report(0.0, 0.0, 0.1), given);
   EXPECT_EQ(b.energy_reference, 10.0);
   EXPECT_NEAR(b.energy_drift, 0.01, 1e-15);
 }
 
 TEST(Ledger, ALoadThatClaimsOtherWorkThanTheStructureReceivedIsSeen) {
   Ledger ledger(load_report(0.0, 0.0), report_of({0.0, 0.0}), true);
-  const Balance b = ledger.close(load_report(4.0, 11.0), moved_report(-4.0, 10.0, 10.0), sums_of({-4.0}).handed_over());
+  HandedOver given = sums_of({-4.0}).handed_over();
+  given.acting = 50;
+  const Balance b = ledger.close(load_report(4.0, 11.0), moved_report(-4.0, 10.0, 10.0), given);
   EXPECT_NEAR(b.interface_mismatch, 1.0, 1e-15);
   EXPECT_NEAR(b.energy_drift, 1.0 / 11.0, 1e-15);
+}
+
+TEST(Ledger, AWorkThatHasJustBegunCountsAsIfItHadGoneOnForTenWindows) {
+  Ledger ledger(load_report(0.0, 0.0), report_of({0.0, 0.0}), false);
+  HandedOver given = sums_of({-4.0}).handed_over();
+  for (const auto& [windows, drift] : {std::pair{1U, 0.02}, {4U, 0.08}, {10U, 0.2}, {99U, 0.2}}) {
+    given.acting = windows;
+    const Balance b = ledger.close(load_report(4.0, 10.0), moved_report(-4.0, 10.0, 8.0), given);
+    EXPECT_NEAR(b.energy_drift, drift, 1e-15) << windows;
+  }
 }
 
 // Two halves that swing against each other have no momentum together; what their mass could have is the reference.
