@@ -25,7 +25,8 @@ NodeRow row_of(const Nodes& nodes, std::size_t first) {
 }
 
 int state_components(const Material& material) {
-  return std::holds_alternative<Dh36>(material) ? kPlasticState : kElasticState;
+  if (std::holds_alternative<Dh36>(material)) return kPlasticState;
+  return std::holds_alternative<Core>(material) ? kCoreState : kElasticState;
 }
 
 /// Index of a triangle's component 0 in the state of its row.
@@ -89,15 +90,17 @@ void Body::share_mass() {
 
 void Body::create_state() {
   for (int row = 0; row < mesh_.row_count(); ++row) {
-    const int components = state_components(material(row));
-    Array state(mesh_.batches() * components * kBatchTriangles, 0.0);
-    if (const auto* steel = std::get_if<Dh36>(&material(row))) {
-      for (std::size_t batch = 0; batch < mesh_.batches(); ++batch) {
-        const auto first = state.begin() + (batch * components + kStaticStrength) * kBatchTriangles;
-        std::fill(first, first + kBatchTriangles, steel->yield_strength);
-      }
-    }
-    state_.push_back(std::move(state));
+    state_.emplace_back(mesh_.batches() * state_components(material(row)) * kBatchTriangles, 0.0);
+    if (const auto* steel = std::get_if<Dh36>(&material(row))) fill_state(row, kStaticStrength, steel->yield_strength);
+    if (std::holds_alternative<Core>(material(row))) fill_state(row, kAxisCosine, 1.0);
+  }
+}
+
+void Body::fill_state(int row, int component, double value) {
+  const int components = state_components(material(row));
+  for (std::size_t batch = 0; batch < mesh_.batches(); ++batch) {
+    const auto first = state_[row].begin() + (batch * components + component) * kBatchTriangles;
+    std::fill(first, first + kBatchTriangles, value);
   }
 }
 
@@ -130,6 +133,8 @@ SweepResult Body::sweep(double step) {
     view.step = step;
     if (const auto* steel = std::get_if<Dh36>(&material(row))) {
       kernels_->sweep_dh36(view, *steel, measure_);
+    } else if (const auto* core = std::get_if<Core>(&material(row))) {
+      kernels_->sweep_core(view, *core, measure_);
     } else {
       kernels_->sweep_elastic(view, std::get<Elastic>(material(row)), measure_);
     }
@@ -216,7 +221,8 @@ Stress Body::stress(int row, int column, int triangle) const {
 }
 
 double Body::plastic_strain(int row, int column, int triangle) const {
-  return state_components(material(row)) > kPlasticStrain ? state(kPlasticStrain, row, column, triangle) : 0.0;
+  if (std::holds_alternative<Core>(material(row))) return std::max(0.0, state(kCompaction, row, column, triangle));
+  return std::holds_alternative<Dh36>(material(row)) ? state(kPlasticStrain, row, column, triangle) : 0.0;
 }
 
 Body::TriangleNodes Body::triangle(int row, int column, int triangle) const {

@@ -58,7 +58,8 @@ class Body {
   /// State component of a triangle (layout.hpp).
   [[nodiscard]] double state(int component, int row, int column, int triangle) const;
   [[nodiscard]] Stress stress(int row, int column, int triangle) const;
-  /// 0 for a material without plasticity.
+  /// Equivalent plastic strain; of a core its compaction, the transverse compressive plastic strain; 0 for a material
+  /// without plasticity.
   [[nodiscard]] double plastic_strain(int row, int column, int triangle) const;
   /// Corner a, corner b and centre of a triangle, in m.
   struct TriangleNodes {
@@ -76,6 +77,7 @@ class Body {
   void place_nodes();
   void share_mass();
   void create_state();
+  void fill_state(int row, int component, double value);
 
   Mesh mesh_;
   std::vector<Material> layers_;

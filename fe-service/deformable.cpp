@@ -67,7 +67,7 @@ void Deformable::advance(const wire::Forces& forces, participant::Due due, wire:
     received_.work += gained.work;
     body_.drift(step());
     step_before_ = step();
-    track_peak(k);
+    track_peaks(k);
     for (std::size_t i = 0; i < surface_.size(); ++i) {
       travelled_[i] = travelled_[i] + Vec2{body_.corners.u[surface_[i]], body_.corners.v[surface_[i]]};
     }
@@ -141,7 +141,11 @@ void Deformable::fill_report(const Velocities& before, const Velocities& at, con
   add_observable(report_, "deflection_front", "m", front);
   add_observable(report_, "peak_deflection", "m", peak_deflection_);
   add_observable(report_, "peak_deflection_time", "s", peak_deflection_time_);
-  if (body_.mesh().rows.back().layer > 0) add_observable(report_, "core_compression", "m", front - back);
+  if (const auto compression = core_compression(body_)) {
+    add_observable(report_, "core_compression", "", *compression);
+    add_observable(report_, "peak_core_compression", "", peak_compression_);
+    add_observable(report_, "peak_core_compression_time", "s", peak_compression_time_);
+  }
   add_observable(report_, "min_element_quality", "", min_quality_);
   add_observable(report_, "stable_step", "s", stable_step_);
   add_observable(report_, "max_surface_speed", "m/s", max_surface_speed(body_, at));
@@ -162,11 +166,15 @@ void Deformable::internal_forces() {
   if (!(min_quality_ >= guards_.element_quality())) check_quality(body_, guards_.element_quality(), progress());
 }
 
-void Deformable::track_peak(std::uint32_t substep) {
-  const double now = back_deflection(body_);
-  if (now <= peak_deflection_) return;
-  peak_deflection_ = now;
-  peak_deflection_time_ = window_length_ * (static_cast<double>(window_) + (substep + 1.0) / substeps_);
+void Deformable::track_peaks(std::uint32_t substep) {
+  const double time = window_length_ * (static_cast<double>(window_) + (substep + 1.0) / substeps_);
+  const auto track = [time](double now, double& peak, double& peak_time) {
+    if (now <= peak) return;
+    peak = now;
+    peak_time = time;
+  };
+  track(back_deflection(body_), peak_deflection_, peak_deflection_time_);
+  if (const auto now = core_compression(body_)) track(*now, peak_compression_, peak_compression_time_);
 }
 
 void Deformable::fill_kinematics(wire::Kinematics& next) const {

@@ -54,7 +54,7 @@ class Deformable final : public WindowedStructure {
   void keep(participant::Due due, const Velocities& before, double weight, const Received& gained);
   void fill_report(const Velocities& before, const Velocities& at, const Received& until);
   void internal_forces();
-  void track_peak(std::uint32_t substep);
+  void track_peaks(std::uint32_t substep);
   void fill_kinematics(wire::Kinematics& next) const;
   void adapt();
   [[nodiscard]] Progress progress() const;
@@ -78,6 +78,7 @@ class Deformable final : public WindowedStructure {
   std::uint64_t steps_ = 0;
   double last_good_time_ = 0.0;
   double peak_deflection_ = 0.0, peak_deflection_time_ = 0.0;
+  double peak_compression_ = 0.0, peak_compression_time_ = 0.0;  ///< of the core
   std::vector<Vec2> travelled_;  ///< of the surface's nodes in this window: sum of their steps' velocities, m/s
 
   wire::Report report_;

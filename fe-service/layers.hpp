@@ -11,7 +11,7 @@ namespace grainstep::fe {
   std::vector<Material> layers;
   layers.reserve(static_cast<std::size_t>(structure.layers_size()));
   for (int i = 0; i < structure.layers_size(); ++i) {
-    layers.push_back(make_material(structure.layers(i), "structure.layers[" + std::to_string(i) + "]"));
+    layers.push_back(make_material(structure, i));
   }
   return layers;
 }

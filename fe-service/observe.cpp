@@ -177,6 +177,21 @@ double front_deflection(const Body& body) {
   return body.corners.y0[i] - body.corners.y[i];
 }
 
+std::optional<double> core_compression(const Body& body) {
+  const Mesh& mesh = body.mesh();
+  int first = -1;
+  int end = -1;
+  for (int row = 0; row < mesh.row_count(); ++row) {
+    if (!std::holds_alternative<Core>(body.material(row))) continue;
+    if (first < 0) first = row;
+    end = row + 1;
+  }
+  if (first < 0) return std::nullopt;
+  const std::size_t top = mesh.corner({first, mesh.mid_column});
+  const std::size_t bottom = mesh.corner({end, mesh.mid_column});
+  return 1.0 - (body.corners.y[top] - body.corners.y[bottom]) / (body.corners.y0[top] - body.corners.y0[bottom]);
+}
+
 void fill_snapshot(const Body& body, const Velocities& at, wire::Snapshot& snapshot) {
   fill_points(body, at, snapshot);
   fill_connectivity(body.mesh(), snapshot);

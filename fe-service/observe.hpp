@@ -2,6 +2,8 @@
 /// the body's own belong to the middle of a step.
 #pragma once
 
+#include <optional>
+
 #include "fe-service/body.hpp"
 #include "grainstep/wire.pb.h"
 
@@ -38,6 +40,9 @@ struct PlasticExtent {
 /// Displacement against x2 (along the slug's travel) at mid-span, m.
 [[nodiscard]] double back_deflection(const Body& body);
 [[nodiscard]] double front_deflection(const Body& body);
+
+/// eps_c: reduction of the core's thickness at mid-span over that thickness; nothing without a core.
+[[nodiscard]] std::optional<double> core_compression(const Body& body);
 
 void fill_snapshot(const Body& body, const Velocities& at, wire::Snapshot& snapshot);
 

@@ -13,11 +13,17 @@ namespace {
 // Measured with bench_fe_kernel (AVX-512, one core); a layer that may flow is taken to do so everywhere.
 constexpr double kElasticSeconds = 1.0 / 200e6;
 constexpr double kPlasticSeconds = 1.0 / 80e6;
+constexpr double kCoreSeconds = 1.0 / 80e6;
+
+double seconds_of(const Material& material) {
+  if (std::holds_alternative<Core>(material)) return kCoreSeconds;
+  return std::holds_alternative<Dh36>(material) ? kPlasticSeconds : kElasticSeconds;
+}
 
 double seconds_per_element_step(const Mesh& mesh, const std::vector<Material>& layers) {
   double sum = 0.0;
   for (const ElementRow& row : mesh.rows) {
-    sum += std::holds_alternative<Dh36>(layers[row.layer]) ? kPlasticSeconds : kElasticSeconds;
+    sum += seconds_of(layers[row.layer]);
   }
   return sum / static_cast<double>(mesh.rows.size());
 }

@@ -135,6 +135,8 @@ void Recorder::remember(std::uint64_t window, const Pending& row, const ledger::
   findings_.momentum_error = std::max(findings_.momentum_error, balance.momentum_error);
   findings_.peak_deflection = ledger::find(*row.structure, ledger::observable::peak_deflection).value_or(0.0);
   findings_.peak_deflection_time = ledger::find(*row.structure, ledger::observable::peak_deflection_time).value_or(0.0);
+  findings_.peak_core_compression = ledger::find(*row.structure, ledger::observable::peak_core_compression);
+  findings_.peak_core_compression_time = ledger::find(*row.structure, ledger::observable::peak_core_compression_time);
   findings_.impactor_steps = row.impactor->timing().steps();
   findings_.structure_steps = row.structure->timing().steps();
   const double early = load_.watched()[1] - load_.watched()[0];

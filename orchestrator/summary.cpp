@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "scene/load.hpp"
 
@@ -62,8 +63,9 @@ Json summary(const SummaryInput& in) {
   out["final_time"] = number(f.final_time / g.reference_time);
   out["transmitted_impulse"] = in.plan ? number(f.transmitted / g.areal_momentum) : Json(nullptr);
   out["early_pressure"] = early_pressure(in);
-  out["peak_core_compression"] = nullptr;  // a monolithic beam has no core
-  out["peak_core_compression_time"] = nullptr;
+  const auto absent = std::numeric_limits<double>::quiet_NaN();  // a monolithic beam has no core
+  out["peak_core_compression"] = number(f.peak_core_compression.value_or(absent));
+  out["peak_core_compression_time"] = number(f.peak_core_compression_time.value_or(absent) / g.reference_time);
   out["energy_drift"] = in.plan ? number(f.energy_drift) : Json(nullptr);
   out["momentum_error"] = in.plan ? number(f.momentum_error) : Json(nullptr);
   out["particles"] = in.impactor.size();
@@ -88,6 +90,10 @@ std::string digest(const Json& s) {
   out += "\nimpulse number I_o   " + text_of(s.at("impulse_number"), "%.3g");
   out += "\npeak deflection      " + text_of(s.at("peak_deflection"), "%.4f") + " w/L at t_bar " +
          text_of(s.at("peak_deflection_time"), "%.3f") + " (run to " + text_of(s.at("final_time"), "%.3f") + ")";
+  if (s.at("peak_core_compression").is_number()) {
+    out += "\ncore compression     " + text_of(s.at("peak_core_compression"), "%.3f") + " of its thickness at t_bar " +
+           text_of(s.at("peak_core_compression_time"), "%.3f");
+  }
   out += "\ntransmitted impulse  " + text_of(s.at("transmitted_impulse"), "%.4f") + " I_t/I0, early pressure " +
          text_of(s.at("early_pressure"), "%.3f") + " p/(rho_bar rho_s v0^2)";
   out += "\nledgers              momentum error " + text_of(s.at("momentum_error"), "%.1e") + ", energy drift " +

@@ -14,10 +14,12 @@ namespace observable {
 inline constexpr std::string_view work_on_surface = "work_on_surface";  // J, since t = 0
 inline constexpr std::string_view overlap = "max_overlap";              // over the diameter, since the last report
 // of the structure
-inline constexpr std::string_view deflection = "deflection";                      // m, back face, mid-span
-inline constexpr std::string_view peak_deflection = "peak_deflection";            // m, of all steps so far
-inline constexpr std::string_view peak_deflection_time = "peak_deflection_time";  // s
-inline constexpr std::string_view element_quality = "min_element_quality";        // smallest area over initial area
+inline constexpr std::string_view deflection = "deflection";                                  // m, back face, mid-span
+inline constexpr std::string_view peak_deflection = "peak_deflection";                        // m, of all steps so far
+inline constexpr std::string_view peak_deflection_time = "peak_deflection_time";              // s
+inline constexpr std::string_view peak_core_compression = "peak_core_compression";            // of the thickness
+inline constexpr std::string_view peak_core_compression_time = "peak_core_compression_time";  // s
+inline constexpr std::string_view element_quality = "min_element_quality";  // smallest area over initial area
 }  // namespace observable
 
 [[nodiscard]] inline std::optional<double> find(const wire::Report& report, std::string_view name) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/core.hpp"
 #include "scene/include.hpp"
 #include "scene/overrides.hpp"
 #include "scene/problems.hpp"
@@ -31,6 +32,7 @@ Scene load_scene(const std::filesystem::path& path, std::span<const Override> ov
     if (finding.severity == Severity::error) problems.add(origin_of(tree, finding.path), finding.path, finding.text);
   }
   problems.throw_if_any();
+  resolve_cores(scene);
   return scene;
 }
 

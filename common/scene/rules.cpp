@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/core.hpp"
 #include "scene/groups.hpp"
 #include "scene/number_text.hpp"
 
@@ -151,6 +152,37 @@ void step_fits_run(const Step& step, const std::string& path, double end, Findin
                           rounded_text(end) + " s)"});
 }
 
+std::string layer_path(int index) { return "structure.layers." + std::to_string(index); }
+
+void core_is_described(const Scene& scene, int index, Findings& findings) {
+  const Structure& structure = scene.structure();
+  const Layer& layer = structure.layers(index);
+  if (layer.has_viscosity() && layer.material() != Layer::MATERIAL_CORE) {
+    findings.push_back({Severity::error, layer_path(index) + ".viscosity", "only a layer of material core has one"});
+  }
+  if (layer.material() != Layer::MATERIAL_CORE) return;
+  if (index == 0) {
+    findings.push_back({Severity::error, layer_path(index) + ".material",
+                        "the first layer cannot be a core: it is the face whose material a core is made of"});
+    return;
+  }
+  if (!structure.core().has_normalised_strength()) {
+    findings.push_back({Severity::error, "structure.core",
+                        "required key 'normalised_strength' is missing: " + layer_path(index) + " is a core"});
+  }
+  const double relative = core_relative_density(structure, layer);
+  if (!(densification_strain(relative) > 0)) {
+    findings.push_back({Severity::error, layer_path(index) + ".density",
+                        "a core of relative density " + rounded_text(relative) +
+                            " has no room to densify (3.9); expected less than " +
+                            rounded_text(structure.layers(0).density() / 1.5) + " kg/m^3"});
+  }
+  if (!layer.has_viscosity() && !scene.impactor().has_slug()) {
+    findings.push_back({Severity::error, layer_path(index),
+                        "required key 'viscosity' is missing: without a slug there is no speed to derive it from"});
+  }
+}
+
 }  // namespace
 
 std::vector<Finding> check_rules(const Scene& scene) {
@@ -170,6 +202,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
                 "impactor.pressure.patch", findings);
   motion_is_read(scene.structure(), findings);
   velocities_apply(scene.structure(), findings);
+  for (int i = 0; i < scene.structure().layers_size(); ++i) core_is_described(scene, i, findings);
   steps_meet(scene.steps(), findings);
   step_fits_run(scene.steps().impactor(), "steps.impactor", end, findings);
   step_fits_run(scene.steps().structure(), "steps.structure", end, findings);

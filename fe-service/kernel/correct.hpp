@@ -25,6 +25,11 @@ GS_ALWAYS_INLINE void set_stress(double* state, int i, const Stress& s) {
   state[kZZ * kBatchTriangles + i] = s.zz;
 }
 
+GS_ALWAYS_INLINE void remember(Flow& flow, int i, double volume, const Stress& old, const Stress& trial, double) {
+  flow.volume[i] = volume;
+  flow.old_work[i] = contract(deviator(old), deviator(trial));
+}
+
 /// The local problems of a batch. A lane at rest gets numbers that are safe to compute with, and none of them is kept.
 /// No flags: arrays of another size than double's keep GCC from vectorising.
 struct Return {

@@ -36,7 +36,7 @@ void drift(double* __restrict position, const double* __restrict velocity, doubl
 #define GS_TEXT(a) GS_TEXT_(a)
 
 extern const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA);
-const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {GS_TEXT(GRAINSTEP_FE_ISA), &sweep<Elastic>, &sweep<Dh36>,
-                                                     &largest_frequency,        &kick,           &drift};
+const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {
+    GS_TEXT(GRAINSTEP_FE_ISA), &sweep<Elastic>, &sweep<Dh36>, &sweep<Core>, &largest_frequency, &kick, &drift};
 
 }  // namespace grainstep::fe

@@ -22,10 +22,13 @@ inline constexpr int kBatchTriangles = kBatchQuads * kQuadTriangles;
 inline constexpr std::size_t kAlignment = 64;
 
 enum StateComponent : int { kXX, kYY, kXY, kZZ, kPlasticStrain, kStaticStrength, kLastIncrement };
+/// Of a core, after the stress: transverse compressive plastic strain, and the direction of its material axes.
+enum CoreComponent : int { kCompaction = 4, kAxisCosine, kAxisSine };
 
 /// Number of state components of a material.
 inline constexpr int kElasticState = 4;
 inline constexpr int kPlasticState = 7;
+inline constexpr int kCoreState = 7;
 
 template <class T>
 struct AlignedAllocator {

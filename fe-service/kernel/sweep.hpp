@@ -2,28 +2,44 @@
 /// material, nodal forces. Measure and material are template parameters: there is no second copy of this loop.
 #pragma once
 
-#include "fe-service/kernel/correct.hpp"
+#include "fe-service/kernel/correct_core.hpp"
 
 namespace grainstep::fe {
 namespace {
 
 inline const Elastic& elasticity(const Elastic& law) { return law; }
 inline const Elastic& elasticity(const Dh36& law) { return law.elastic; }
-template <class Law>
-inline constexpr int kStateOf = kPlasticState;
-template <>
-inline constexpr int kStateOf<Elastic> = kElasticState;
+inline const Elastic& elasticity(const Core& law) { return law.elastic; }
 
-inline double log_rate_scale(const Elastic&, double) { return 0.0; }
-inline double log_rate_scale(const Dh36& law, double step) { return std::log(step * law.reference_rate); }
+/// What the correction by a material keeps per triangle, and how large its state is.
+template <class Law>
+struct Correction {
+  using Memory = Flow;
+  static constexpr int kState = kPlasticState;
+};
+template <>
+struct Correction<Elastic> {
+  using Memory = Flow;
+  static constexpr int kState = kElasticState;
+};
+template <>
+struct Correction<Core> {
+  using Memory = CoreFlow;
+  static constexpr int kState = kCoreState;
+};
+
+/// What a material wants to know of the step's length.
+inline double step_parameter(const Elastic&, double) { return 0.0; }
+inline double step_parameter(const Dh36& law, double step) { return std::log(step * law.reference_rate); }
+inline double step_parameter(const Core& law, double step) { return law.viscosity / step; }
 
 // The body of every lane loop is one call: GCC gives aggregates that are declared in the body of an `omp simd` loop a
 // home in memory, which keeps it from vectorising; those of an inlined function become registers.
 
 /// Rotates the old stress of triangle T and adds the elastic increment. Leaves the predictor in `state`.
-template <int T, class Measure>
+template <int T, class Measure, class Memory>
 GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Elastic& law, const Measure& measure, double step,
-                                   double* state, Flow& flow, int l) {
+                                   double* state, Memory& flow, int l) {
   constexpr int next = (T + 1) % kQuadTriangles;
   const int i = T * kBatchQuads + l;
   const Vec2 moved_a = step * batch.rate(T, l);
@@ -39,20 +55,19 @@ GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Elastic& law, const
   const Stress change = rotate_from_middle(law.increment(strain), m.half_tangent);
   const Stress trial = {old.xx + change.xx, old.yy + change.yy, old.xy + change.xy, old.zz + change.zz};
   set_stress(state, i, trial);
-  flow.volume[i] = 0.5 * m.twice_area * measure.thickness(x);
-  flow.old_work[i] = contract(deviator(old), deviator(trial));
+  remember(flow, i, 0.5 * m.twice_area * measure.thickness(x), old, trial, m.half_tangent);
 }
 
-template <int T, class Measure>
+template <int T, class Measure, class Memory>
 GS_ALWAYS_INLINE void predict_triangle(const Batch& batch, const Elastic& law, const Measure& measure, double step,
-                                       double* state, Flow& flow) {
+                                       double* state, Memory& flow) {
 #pragma omp simd
   for (int l = 0; l < kBatchQuads; ++l) predict_lane<T>(batch, law, measure, step, state, flow, l);
 }
 
-template <class Measure>
+template <class Measure, class Memory>
 GS_ALWAYS_INLINE void predict(const Batch& batch, const Elastic& law, const Measure& measure, double step,
-                              double* state, Flow& flow) {
+                              double* state, Memory& flow) {
   predict_triangle<0>(batch, law, measure, step, state, flow);
   predict_triangle<1>(batch, law, measure, step, state, flow);
   predict_triangle<2>(batch, law, measure, step, state, flow);
@@ -152,7 +167,7 @@ template <class Law, class Measure>
 void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   const Contributions upper = contributions(row.scratch, row.quads, 0);
   const Contributions lower = contributions(row.scratch, row.quads, 1);
-  const double rate_scale = log_rate_scale(law, row.step);
+  const double parameter = step_parameter(law, row.step);
   double min_twice_area[kBatchQuads];
   for (double& area : min_twice_area) area = 1e300;
   double plastic_work[kBatchQuads] = {};
@@ -160,14 +175,14 @@ void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   row.yielding = 0;
   row.unconverged = 0;
   alignas(kAlignment) Batch batch;
-  alignas(kAlignment) Flow flow;
+  alignas(kAlignment) typename Correction<Law>::Memory flow;
   double* state = row.state;
   for (int first = 0; first < row.quads; first += kBatchQuads) {
     load(row, first, batch);
     predict(batch, elasticity(law), measure, row.step, state, flow);
-    correct(law, state, flow, rate_scale, lanes_of(row, first), plastic_work, row);
+    correct(law, state, flow, parameter, lanes_of(row, first), plastic_work, row);
     add_forces(batch, measure, state, first, upper, lower, row, min_twice_area);
-    state += kStateOf<Law> * kBatchTriangles;
+    state += Correction<Law>::kState * kBatchTriangles;
   }
   for (const double work : plastic_work) row.plastic_work += work;
   row.min_twice_area = min_twice_area[0];

@@ -2,18 +2,19 @@
 /// kernel.
 #pragma once
 
-#include <string>
 #include <variant>
 
+#include "fe-service/materials/core.hpp"
 #include "fe-service/materials/dh36.hpp"
 #include "grainstep/scene.pb.h"
 
 namespace grainstep::fe {
 
-using Material = std::variant<Elastic, Dh36>;
+using Material = std::variant<Elastic, Dh36, Core>;
 
-/// Throws InputError for a material that this program does not know; `where` is the layer's path in the scene.
-[[nodiscard]] Material make_material(const scene::Layer& layer, const std::string& where);
+/// Of structure.layers[layer]. Throws InputError for a material that this program does not know, and for a core that is
+/// not one.
+[[nodiscard]] Material make_material(const scene::Structure& structure, int layer);
 
 [[nodiscard]] const Elastic& elastic_part(const Material& material);
 

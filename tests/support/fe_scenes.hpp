@@ -30,6 +30,25 @@ inline scene::Structure beam(scene::Layer::Material material, double half_span, 
   return structure;
 }
 
+inline scene::Layer core(double thickness, double density, double viscosity) {
+  scene::Layer layer;
+  layer.set_material(scene::Layer::MATERIAL_CORE);
+  layer.set_thickness(thickness);
+  layer.set_density(density);
+  layer.set_viscosity(viscosity);
+  return layer;
+}
+
+/// The defaults of the scene's keys.
+inline void set_core(scene::Structure& structure, double normalised_strength) {
+  scene::Core& keys = *structure.mutable_core();
+  keys.set_normalised_strength(normalised_strength);
+  keys.set_poisson(0.25);
+  keys.set_densification(scene::Core::DENSIFICATION_LOGARITHMIC);
+  keys.set_densified_slope(0.1);
+  keys.set_shock_width(0.1);
+}
+
 inline wire::Setup setup_of(const scene::Structure& structure, double depth = 1e-3) {
   wire::Setup setup;
   setup.set_protocol(wire::PROTOCOL_VERSION);

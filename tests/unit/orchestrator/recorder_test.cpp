@@ -80,6 +80,12 @@ class RecorderTest : public ::testing::Test {
     peak->set_name("peak_deflection");
     peak->set_unit("m");
     peak->set_value(0.25);
+    if (!cored_) return out;
+    for (const auto& [name, value] : {std::pair{"peak_core_compression", 0.3}, {"peak_core_compression_time", 2.0}}) {
+      auto* observable = out.add_observable();
+      observable->set_name(name);
+      observable->set_value(value);
+    }
     return out;
   }
 
@@ -92,6 +98,7 @@ class RecorderTest : public ::testing::Test {
   std::optional<results::ResultsFile> file_;
   std::optional<Recorder> recorder_;
   double broken_energy_ = 50.0;
+  bool cored_ = false;
 };
 
 TEST_F(RecorderTest, AConstantForceIsAConstantPressureInRowsAndProfiles) {
@@ -127,6 +134,25 @@ TEST_F(RecorderTest, TheSummaryScalesWhatWasFound) {
   EXPECT_NEAR(s["transmitted_impulse"].get<double>(), pressure * 0.4 / (200.0 * 1.0 * 2.0), 1e-9);
   EXPECT_NEAR(s["peak_deflection"].get<double>(), 0.25, 1e-15);
   EXPECT_TRUE(s["peak_core_compression"].is_null());
+}
+
+TEST_F(RecorderTest, ACoresCompressionIsInTheSummary) {
+  cored_ = true;
+  for (std::uint64_t n = 0; n <= 10; ++n) window(n);
+  EXPECT_EQ(recorder_->findings().peak_core_compression, 0.3);
+  const auto s = summary({.status = "done",
+                          .reason = "",
+                          .scene = scene_,
+                          .groups = groups_,
+                          .plan = plan_,
+                          .findings = recorder_->findings(),
+                          .impactor = {},
+                          .structure = {},
+                          .impactor_timing = {},
+                          .structure_timing = {}});
+  EXPECT_DOUBLE_EQ(s["peak_core_compression"].get<double>(), 0.3);
+  EXPECT_DOUBLE_EQ(s["peak_core_compression_time"].get<double>(), 2.0 / groups_.reference_time);
+  EXPECT_NE(digest(s).find("core compression     0.300"), std::string::npos);
 }
 
 TEST_F(RecorderTest, AShortRunHasNoEarlyPressure) {

@@ -63,6 +63,27 @@ TEST(Configs, TheReferenceBeamIsThePapers) {
   EXPECT_EQ(scene.structure().mesh().refinement(), 15);
 }
 
+// (3.2) and (5.2), and the viscosity of (3.10) from the slug's speed unless the scene gives one.
+TEST(Configs, TheSandwichBeamsAreThePapers) {
+  for (const auto& [name, thickness] :
+       {std::pair{"beam-sandwich-c011.yaml", 0.055}, {"beam-sandwich-c033.yaml", 0.165}}) {
+    for (const auto* const folder : {"liu2013", "small"}) {
+      const Scene scene = load_scene(configs / folder / name);
+      EXPECT_NEAR(groups(scene).impulse_number, 0.67, 0.005);
+      ASSERT_EQ(scene.structure().layers_size(), 3);
+      for (const Layer& layer : scene.structure().layers()) {
+        EXPECT_NEAR(layer.density() * layer.thickness(), 400.0 / 3.0, 1e-6);
+      }
+      const Layer& core = scene.structure().layers(1);
+      EXPECT_DOUBLE_EQ(core.thickness(), thickness);
+      const double densification = 1.0 - 1.5 * core.density() / 8000.0;
+      EXPECT_NEAR(core.viscosity(), 0.1 * thickness * core.density() * 400.0 / densification, 1e-6);
+    }
+  }
+  const std::vector<std::string> given = {"structure.layers.1.viscosity=0 Pa.s", "impactor.slug.speed=100 m/s"};
+  EXPECT_EQ(load_scene(configs / "small/beam-sandwich-c011.yaml", given).structure().layers(1).viscosity(), 0.0);
+}
+
 TEST(Configs, BrokenScenesAreRefusedWithTheirMessage) {
   const auto all = scenes(true);
   EXPECT_GE(all.size(), 14);
