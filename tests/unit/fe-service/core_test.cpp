@@ -180,18 +180,21 @@ TEST(Core, TensionUndoesCompaction) {
 }
 
 /// Two elements' height of core, moved by hand.
-Body core_block(const Core& law) {
+Body core_block(const Core& law, const Kernels& kernels = *available_kernels().front()) {
   const scene::Structure structure = test::beam(scene::Layer::MATERIAL_ELASTIC, 9e-3, 4e-3, 2);
-  return {make_mesh(structure), {law}, 1e-3};
+  return {make_mesh(structure), {law}, 1e-3, kernels};
 }
 
-// The point's law, in every triangle, while the block is crushed and sheared homogeneously; and again while it turns.
-TEST(CoreBody, CrushingTurnsWithTheBody) {
+// On every instruction set: the point's law, in every triangle, while the block is crushed and sheared homogeneously;
+// and again while it turns.
+class CoreBody : public testing::TestWithParam<const Kernels*> {};
+
+TEST_P(CoreBody, CrushingTurnsWithTheBody) {
   const Core law = make_law();
   const double step = 1e-7;
   const int steps = 400;
   for (const double turns : {0.0, 0.3}) {
-    Body body = core_block(law);
+    Body body = core_block(law, *GetParam());
     Point point;
     double work = 0.0;
     double expected_work = 0.0;
@@ -243,9 +246,9 @@ TEST(CoreBody, CrushingTurnsWithTheBody) {
 }
 
 // Shear of the core does nothing to its transverse strength, and ends at sigma_c on every plane of the material frame.
-TEST(CoreBody, ShearEndsAtTheStrength) {
+TEST_P(CoreBody, ShearEndsAtTheStrength) {
   const Core law = make_law(0.25, 0.0);
-  Body body = core_block(law);
+  Body body = core_block(law, *GetParam());
   const double step = 1e-6;
   for (int n = 1; n <= 100; ++n) {
     test::for_each_node(body, [&](Nodes& nodes, std::size_t i) {
@@ -260,6 +263,9 @@ TEST(CoreBody, ShearEndsAtTheStrength) {
   EXPECT_NEAR(found.xy, law.strength, 1e-3 * law.strength);
   EXPECT_NEAR(body.plastic_strain(1, 3, 1), 0.0, 1e-4);
 }
+
+INSTANTIATE_TEST_SUITE_P(Kernels, CoreBody, testing::ValuesIn(available_kernels().begin(), available_kernels().end()),
+                         [](const auto& which) { return std::string(which.param->name); });
 
 }  // namespace
 }  // namespace grainstep::fe

@@ -62,7 +62,7 @@ TEST(LoadErrors, WrongKindOfValue) {
 
 TEST(LoadErrors, UnknownWord) {
   EXPECT_EQ(load_error(replaced(minimal_scene, "dh36", "dh63")),
-            "x.yaml:16: structure.layers.0.material: 'dh63' is not one of dh36, elastic; did you mean 'dh36'?");
+            "x.yaml:16: structure.layers.0.material: 'dh63' is not one of dh36, elastic, core; did you mean 'dh36'?");
   EXPECT_THAT(load_error(minimal_scene, {"structure.type=unset"}), HasSubstr("is not one of beam, rigid, external"));
 }
 
@@ -89,7 +89,7 @@ TEST(LoadErrors, AllProblemsAtOnceOneLineEach) {
             "x.yaml:17: extra: unknown key. Known keys here: title, symmetry, depth, time, impactor, structure, steps, "
             "guards, output\n"
             "x.yaml:9: impactor.slug.particle.diameter: 'tiny' is not a number; expected a number with a unit of m\n"
-            "x.yaml:16: structure.layers.0.material: 'butter' is not one of dh36, elastic");
+            "x.yaml:16: structure.layers.0.material: 'butter' is not one of dh36, elastic, core");
 }
 
 TEST(LoadErrors, DuplicateKeys) {
