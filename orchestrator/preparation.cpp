@@ -37,7 +37,8 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
                                         : without_particles();
   }
   if (out.impactor && out.structure) {
-    out.plan = plan_steps(scene, out.groups.end, {out.impactor->stable_step, out.impactor->preferred_step, out.impactor->particle_mass},
+    out.plan = plan_steps(scene, out.groups.end,
+                          {out.impactor->stable_step, out.impactor->preferred_step, out.impactor->particle_mass},
                           {out.structure->stable_step, out.structure->preferred_step, out.structure->contact_mass});
   }
   return out;

@@ -21,16 +21,16 @@ namespace grainstep::orchestrator {
 
 /// What a summary needs to know of a run, whole or not.
 struct Findings {
-  double final_time = 0.0;              ///< s, of the last row
-  double energy_drift = 0.0;            ///< largest of the rows, over the last row's reference
-  double momentum_error = 0.0;          ///< largest of the rows
-  double transmitted = 0.0;             ///< Pa s, at the last row
-  std::optional<double> early_impulse;  ///< Pa s, between t_hat 0.05 and 0.3
-  double peak_deflection = 0.0;         ///< m
-  double peak_deflection_time = 0.0;    ///< s
+  double final_time = 0.0;                           ///< s, of the last row
+  double energy_drift = 0.0;                         ///< largest of the rows, over the last row's reference
+  double momentum_error = 0.0;                       ///< largest of the rows
+  double transmitted = 0.0;                          ///< Pa s, at the last row
+  std::optional<double> early_impulse;               ///< Pa s, between t_hat 0.05 and 0.3
+  double peak_deflection = 0.0;                      ///< m
+  double peak_deflection_time = 0.0;                 ///< s
   std::optional<double> peak_core_compression;       ///< of the core's thickness; nothing without a core
   std::optional<double> peak_core_compression_time;  ///< s
-  std::uint64_t windows = 0;            ///< seen
+  std::uint64_t windows = 0;                         ///< seen
   std::uint64_t impactor_steps = 0;
   std::uint64_t structure_steps = 0;
 };

@@ -113,7 +113,9 @@ StepPlan Session::prepare() {
   make_ready(hub_.impactor(), for_impactor);
 
   const auto steps = [](const Peer& peer) {
-    return SideSteps{.stable = peer.ready.stable_step(), .preferred = peer.ready.preferred_step(), .contact_mass = peer.ready.contact_mass()};
+    return SideSteps{.stable = peer.ready.stable_step(),
+                     .preferred = peer.ready.preferred_step(),
+                     .contact_mass = peer.ready.contact_mass()};
   };
   return plan_steps(task_.scene, task_.end, steps(hub_.impactor()), steps(hub_.structure()));
 }

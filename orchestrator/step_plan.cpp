@@ -85,8 +85,9 @@ void choose_structure_steps(StepPlan& plan, double preferred, double contact_tim
   plan.structure_steps = steps_per_window(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
 }
 
-// Where what touches outweighs the surface's nodes, the surface moves as much as the particle does during a contact, and
-// an impulse that acts a part of a window late makes energy of that: no delay at all, then (docs/decisions/0006-lock-step.md).
+// Where what touches outweighs the surface's nodes, the surface moves as much as the particle does during a contact,
+// and an impulse that acts a part of a window late makes energy of that: no delay at all, then
+// (docs/decisions/0006-lock-step.md).
 bool needs_equal_steps(SideSteps impactor, SideSteps structure) {
   return structure.contact_mass > 0.0 && impactor.contact_mass > structure.contact_mass;
 }
