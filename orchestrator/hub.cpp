@@ -25,7 +25,7 @@ bool Hub::take_one(Peer& peer, const Handler& handler) {
   return true;
 }
 
-void Hub::hear_last_words(const std::string& peer) {
+void Hub::hear_last_words(const std::string& peer, const Handler& handler) {
   Peer& lost = peer == impactor_.name() ? impactor_ : structure_;
   while (!lost.finished) {
     const wire::Frame* frame = nullptr;
@@ -40,6 +40,10 @@ void Hub::hear_last_words(const std::string& peer) {
       lost.finished = true;
       throw_error_of(lost, *frame);
     }
+    try {
+      handler(lost, *frame);
+    } catch (const PeerError&) {  // it leads to the lost one, or out of turn because of what could not be sent
+    }
   }
 }
 
@@ -47,7 +51,7 @@ bool Hub::run(const Handler& handler, const Done& done, const Until& deadline) {
   try {
     return run_until(handler, done, deadline);
   } catch (const PeerError& error) {
-    hear_last_words(error.peer());
+    hear_last_words(error.peer(), handler);
     throw;
   }
 }

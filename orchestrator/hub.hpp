@@ -41,7 +41,7 @@ class Hub {
     try {
       peer.messages.send(message);
     } catch (const PeerError& error) {
-      hear_last_words(error.peer());
+      hear_last_words(error.peer(), [](Peer&, const wire::Frame&) {});
       throw;
     }
   }
@@ -49,9 +49,9 @@ class Hub {
  private:
   bool run_until(const Handler& handler, const Done& done, const Until& deadline);
 
-  /// A participant that fails says why and goes; its going may be noticed first, when something is sent to it. Throws
-  /// what its Error stands for, if there is one.
-  void hear_last_words(const std::string& peer);
+  /// A participant that fails says why and goes; its going may be noticed first, when something is sent to it. What it
+  /// said before goes to `handler`, what its Error stands for is thrown, if there is one.
+  void hear_last_words(const std::string& peer, const Handler& handler);
 
   bool take_one(Peer& peer, const Handler& handler);
 

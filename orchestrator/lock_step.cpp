@@ -88,6 +88,14 @@ void LockStep::handle(Peer& peer, const wire::Frame& frame) {
   }
 }
 
+void LockStep::late(Peer& peer, const wire::Frame& frame) {
+  if (frame.kind == wire::Envelope::kReport) {
+    on_report(peer, frame);
+  } else if (frame.kind == wire::Envelope::kSnapshot) {
+    on_snapshot(peer, frame);
+  }
+}
+
 void LockStep::require_size(const Peer& peer, const char* what, std::uint64_t window, int found) const {
   if (found != values_) {
     throw PeerError(peer.name(), std::string(what) + " of window " + std::to_string(window) + " holds " +

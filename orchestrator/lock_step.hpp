@@ -18,6 +18,10 @@ class LockStep {
 
   void run();
 
+  /// A message that comes after run() has thrown: a Report or a Snapshot still goes to the observer, the rest has
+  /// become void.
+  void late(Peer& peer, const wire::Frame& frame);
+
  private:
   void handle(Peer& peer, const wire::Frame& frame);
   void on_forces(const wire::Frame& frame);

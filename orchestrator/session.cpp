@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "orchestrator/lock_step.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -124,7 +123,8 @@ void Session::run(const StepPlan& plan, StepObserver& observer) {
   const wire::Start start = plan.start();
   hub_.send(hub_.structure(), start);
   hub_.send(hub_.impactor(), start);
-  LockStep(hub_, observer, start, deadlines_.step_s).run();
+  steps_.emplace(hub_, observer, start, deadlines_.step_s);
+  steps_->run();
   observer.finish();
   complete();
 }
@@ -169,6 +169,18 @@ void Session::tell_to_stop(const std::string& reason) {
   }
 }
 
+// One side's failure may overtake what the other has said of the windows before it. Without these reports the last rows
+// of a failed run would depend on who was quicker.
+void Session::hear_the_rest(Peer& peer, const wire::Frame& frame) {
+  wire::Finished last;
+  if (wire::parse(frame, last)) {
+    peer.timing = last.timing();
+    peer.finished = true;
+  } else if (steps_) {
+    steps_->late(peer, frame);
+  }
+}
+
 // The run has failed already and its reason is known. A peer that cannot be told any more ends with its channel or with
 // its process; no further failure may keep the other one from being told.
 void Session::abandon(const std::string& reason, const std::string& lost) noexcept {
@@ -176,13 +188,7 @@ void Session::abandon(const std::string& reason, const std::string& lost) noexce
     lose(lost);
     tell_to_stop(reason);
     const auto deadline = transport::in(seconds(deadlines_.stop_s));
-    const auto handler = [](Peer& peer, const wire::Frame& frame) {
-      wire::Finished last;
-      if (wire::parse(frame, last)) {
-        peer.timing = last.timing();
-        peer.finished = true;
-      }
-    };
+    const auto handler = [this](Peer& peer, const wire::Frame& frame) { hear_the_rest(peer, frame); };
     while (!finished() && transport::Clock::now() < deadline) {
       try {
         static_cast<void>(hub_.run(

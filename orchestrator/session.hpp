@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "grainstep/scene.pb.h"
 #include "orchestrator/hub.hpp"
+#include "orchestrator/lock_step.hpp"
 #include "orchestrator/step_observer.hpp"
 #include "orchestrator/step_plan.hpp"
 
@@ -33,7 +35,8 @@ class Session {
   /// Start, all windows, Stop, Finished.
   void run(const StepPlan& plan, StepObserver& observer);
 
-  /// Asks both sides, but for `lost` (a peer's name, or empty), to stop and waits a little for their answers.
+  /// Asks both sides, but for `lost` (a peer's name, or empty), to stop and waits a little for their answers. What they
+  /// had reported before is still handed to run()'s observer, which has to be there until this returns.
   void abandon(const std::string& reason, const std::string& lost) noexcept;
 
  private:
@@ -44,10 +47,12 @@ class Session {
   void tell_to_stop(const std::string& reason);
   [[nodiscard]] bool finished() { return hub_.impactor().finished && hub_.structure().finished; }
   void lose(const std::string& name);
+  void hear_the_rest(Peer& peer, const wire::Frame& frame);
 
   Hub& hub_;
   Task task_;
   Deadlines deadlines_;
+  std::optional<LockStep> steps_;
 };
 
 }  // namespace grainstep::orchestrator

@@ -24,9 +24,15 @@ inline void add_x2(google::protobuf::RepeatedField<double>* out, double value) {
 struct Trouble {
   std::uint64_t window = std::numeric_limits<std::uint64_t>::max();
   std::function<void()> act = [] {};
+  std::function<void()> report = [] {};  // an impactor's, between its Forces and its Report
   void look(std::uint64_t now) const {
     if (now == window) {
       act();
+    }
+  }
+  void look_at_report(std::uint64_t now) const {
+    if (now == window) {
+      report();
     }
   }
 };
@@ -196,6 +202,7 @@ class BallImpactor final : public participant::ImpactorBackend {
 
   void extra(std::uint64_t window, double h, double surface, participant::ImpactorLink& link) {
     const auto due = link.due(window);
+    if (due.report) trouble_.look_at_report(window);
     const double half = window == 0 ? 0.0 : 0.5 * h * force_at(surface);
     if (due.report) {
       wire::Report report;

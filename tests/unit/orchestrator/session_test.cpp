@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
+#include <future>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -77,6 +79,7 @@ class Stage {
     });
     std::thread structure([this, far = std::move(s_far), &quiet_s]() mutable {
       structure_code_ = participant::serve_structure(*far, structure_, {.errors = &quiet_s});
+      structure_ended_();
       far.reset();
     });
     EventLoop loop;
@@ -94,6 +97,7 @@ class Stage {
   Deadlines deadlines_{.connect_s = 20.0, .step_s = 20.0, .stop_s = 20.0};
   int impactor_code_ = -1;
   int structure_code_ = -1;
+  std::function<void()> structure_ended_ = [] {};  // it has said all that it says
 
  private:
   std::string converse(Hub& hub, double end) {
@@ -194,6 +198,16 @@ TEST(Session, NumericalFailureOfAParticipantEndsBothSides) {
   Stage stage({.window = 7, .act = [] { throw NumericalError("a particle passed through"); }}, {});
   EXPECT_EQ(stage.run(), "numerical: impactor: a particle passed through");
   EXPECT_EQ(stage.structure_code_, 0);
+}
+
+// The impactor reports window 6 only when the structure has failed in it: quicker or slower, the row is kept.
+TEST(Session, WhatTheOtherSideReportedBeforeAFailureIsKept) {
+  std::promise<void> failed;
+  Stage stage({.window = 6, .report = [&] { failed.get_future().wait(); }},
+              {.window = 6, .act = [] { throw NumericalError("an element is inside out"); }});
+  stage.structure_ended_ = [&] { failed.set_value(); };
+  EXPECT_EQ(stage.run(), "numerical: structure: an element is inside out");
+  EXPECT_EQ(stage.witness_.impactor_.back().window(), 6U);
 }
 
 TEST(Session, AFailureThatIsNobodysInputIsThePeers) {
@@ -330,6 +344,9 @@ TEST_F(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
 
 // The structure fails and goes while Forces for it are on their way: the loss is noticed when they are sent.
 TEST_F(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
+  wire::Report report;
+  report.set_window(0);
+  structure_.messages_->send(report);
   wire::Error error;
   error.set_kind(wire::Error::NUMERICAL);
   error.set_text("an element is inside out");
@@ -337,6 +354,7 @@ TEST_F(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
   structure_.far_.reset();
   impactor_.messages_->send(forces(0));
   EXPECT_EQ(run(), "numerical: structure: an element is inside out");
+  EXPECT_EQ(witness_.structure_.size(), 1U) << "its report of that window was lost";
 }
 
 TEST_F(HandPlayed, DamagedBytesArePeerErrors) {
