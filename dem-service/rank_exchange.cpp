@@ -36,7 +36,9 @@ void RankExchange::hand_over(std::uint64_t window, std::vector<surface::Vec2>& n
   }
   if (!is_root()) return;
   if (!std::all_of(summed_.begin(), summed_.end(), [](double x) { return std::isfinite(x); })) {
-    fail("the contact force on the structure is not a number: the computation is unstable; lower steps.impactor");
+    fail(
+        "the contact force on the structure is not a number: the computation is unstable; take shorter steps "
+        "(steps.impactor)");
   }
   failed_somewhere_ = failed_somewhere_ || failure_ || summed_.back() > 0.0;
   if (failed_somewhere_) return;

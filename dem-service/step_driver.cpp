@@ -42,7 +42,8 @@ void StepDriver::check_speed(const ParticleArrays& particles) {
     if (way2 <= particles.radius[i] * particles.radius[i]) continue;  // false for what is not a number
     std::ostringstream text;
     text << "particle " << particles.identity[i] << " moves more than its radius in one step (velocity " << v[0] << ", "
-         << v[1] << " m/s, step " << settings_.dt << " s): the computation is unstable; lower steps.impactor";
+         << v[1] << " m/s, step " << settings_.dt
+         << " s): the computation is unstable; take shorter steps (steps.impactor)";
     exchange_.fail(text.str());
     return;
   }
@@ -155,7 +156,7 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
     std::ostringstream text;
     text << "after " << step << " steps " << all.particles << " of " << model_.particles
          << " particles are left, with a kinetic energy of " << all.kinetic
-         << " J: the computation is unstable; lower steps.impactor";
+         << " J: the computation is unstable; take shorter steps (steps.impactor)";
     exchange_.fail(text.str());
   }
   if (const auto wrong = dissipation_.look(message.energy())) exchange_.fail(*wrong);

@@ -19,7 +19,7 @@ std::string tunnelled(const ParticleArrays& particles, int i, const ClosestPoint
   std::ostringstream text;
   text << "particle " << particles.identity[i] << " passed through the surface (tunnelled) at x1 = " << x[0]
        << " m, x2 = " << x[1] << " m: its centre lies " << -at.distance << " m inside, more than its diameter "
-       << 2.0 * particles.radius[i] << " m; lower steps.impactor or raise normal_stiffness";
+       << 2.0 * particles.radius[i] << " m; take shorter steps (steps.impactor) or raise normal_stiffness";
   return text.str();
 }
 

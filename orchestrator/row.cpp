@@ -82,7 +82,7 @@ Row ledger_row(const RowData& data) {
              b.in_flight);
   put(row, "/ledger/energy", "J", "kinetic, stored and dissipated energy of both sides less the supports' work",
       b.energy);
-  put(row, "/ledger/energy_reference", "J", "energy of the start or, if larger, the largest work handed over so far",
+  put(row, "/ledger/energy_reference", "J", "energy of the start or, if larger, the most supplied from outside so far",
       b.energy_reference);
   put(row, "/ledger/energy_drift", "",
       "largest of the energies that are not explained: of the whole, of each side, at the interface", b.energy_drift);

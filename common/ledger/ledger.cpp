@@ -112,9 +112,9 @@ void Ledger::close_energy(const wire::Report& impactor, const wire::Report& stru
   // Work on particles and work on the surface differ by what the contacts between them dissipate and store.
   const double given_work = find(impactor, observable::work_on_surface).value_or(-impactor.energy().interface_work());
   const double taken_work = structure.energy().interface_work();
-  largest_work_ = std::max({largest_work_, std::abs(given_work), std::abs(taken_work)});
+  supplied_ = std::max(supplied_, std::abs(impactor.energy().support_work() + structure.energy().support_work()));
   const double growth = std::max(1.0, measuring_windows / static_cast<double>(std::max<std::uint64_t>(1, acting)));
-  out.energy_reference = largest_work_ > initial_energy_ ? largest_work_ * growth : initial_energy_;
+  out.energy_reference = supplied_ > initial_energy_ ? supplied_ * growth : initial_energy_;
   out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
   out.energy_change = part_of(out.energy_reference, out.energy - initial_energy_);
   out.impactor_energy = part_of(out.energy_reference, own_energy(impactor.energy()) - impactor_start_energy_);

@@ -42,11 +42,11 @@ struct Masses {
 };
 
 /// The references, so that errors are parts of what is there, also where nothing moves at the start (a prescribed
-/// load): the energy of the start or, if larger, the largest work handed over so far; the momentum of the start - at
-/// least what each side would have if all of its mass moved with the energy it has - or, if larger, the largest impulse
-/// handed over so far. Where both are zero, nothing has happened: an error is then all there is, i.e. 1. A work that
-/// has just begun is no measure yet, since both sides know it to a part of a window: before ten windows of it, it is
-/// taken as if it had gone on for ten.
+/// load): the energy of the start or, if larger, the most that has been supplied from outside so far (support work:
+/// never what an unstable exchange makes of itself); the momentum of the start - at least what each side would have if
+/// all of its mass moved with the energy it has - or, if larger, the largest impulse handed over so far. Where both are
+/// zero, nothing has happened: an error is then all there is, i.e. 1. A work that has just begun is no measure yet,
+/// since both sides know it to a part of a window: before ten windows of it, it is taken as if it had gone on for ten.
 class Ledger {
  public:
   /// The reports of window 0 (or of the window at which a run continues). `equal_steps`: one impactor step per window;
@@ -69,7 +69,7 @@ class Ledger {
   double structure_start_energy_;  // the same
   bool equal_steps_;
   double initial_energy_;
-  double largest_work_ = 0.0;  // J
+  double supplied_ = 0.0;      // J
   double momentum_reference_;  // N s
 };
 

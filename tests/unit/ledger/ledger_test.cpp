@@ -170,6 +170,19 @@ TEST(Ledger, WithNothingAtTheStartTheReferenceIsWhatWasHandedOverAtMost) {
   EXPECT_NEAR(b.energy_drift, 0.01, 1e-15);
 }
 
+// An unstable interface hands over more than there ever was: measured by itself it would look small.
+TEST(Ledger, WorkThatTheSidesMakeOfEachOtherIsNoReference) {
+  wire::Report impactor = report_of({10.0, 0.0});
+  impactor.mutable_energy()->set_kinetic(2.0);
+  Ledger ledger(impactor, report_of({0.0, 0.0}), true);
+  HandedOver given = sums_of({-4.0}).handed_over();
+  given.acting = 50;
+  impactor.mutable_energy()->set_interface_work(-100.0);
+  const Balance b = ledger.close(impactor, moved_report(-4.0, 110.0, 110.0), given);
+  EXPECT_EQ(b.energy_reference, 2.0);
+  EXPECT_NEAR(b.energy_drift, 55.0, 1e-12);
+}
+
 TEST(Ledger, ALoadThatClaimsOtherWorkThanTheStructureReceivedIsSeen) {
   Ledger ledger(load_report(0.0, 0.0), report_of({0.0, 0.0}), true);
   HandedOver given = sums_of({-4.0}).handed_over();
