@@ -22,8 +22,4 @@ struct PackingBox {
 [[nodiscard]] std::vector<surface::Vec2> pack_at_random(const PackingBox& box, std::uint64_t count, double diameter,
                                                         std::uint64_t seed);
 
-/// Lowers (or raises) all discs together until the first one just touches the surface: the smallest gap is zero but for
-/// round-off, and never negative. Throws InputError when no disc stands above the surface.
-void rest_on(const surface::Polyline& surface, double diameter, std::vector<surface::Vec2>& centres);
-
 }  // namespace grainstep::dem

@@ -4,6 +4,11 @@
 
 namespace grainstep::dem {
 
+using contact::Branch;
+using contact::branch_along;
+using contact::NormalForce;
+using surface::Vec3;
+
 void PlaneContacts::rebuild(const ParticleArrays& particles) {
   candidates_.clear();
   for (int i = 0; i < particles.owned; ++i) {

@@ -7,11 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "dem-service/contact_law.hpp"
-#include "dem-service/interface_ledger.hpp"
-#include "dem-service/particle_arrays.hpp"
+#include "contact/contact_law.hpp"
+#include "contact/interface_ledger.hpp"
+#include "contact/particle_arrays.hpp"
 
 namespace grainstep::dem {
+
+using contact::ContactLaw;
+using contact::InterfaceLedger;
+using contact::ParticleArrays;
+using contact::ParticleSide;
 
 struct Plane {
   enum class Kind { mirror, wall };

@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "dem-service/moving_surface.hpp"
+#include "contact/moving_surface.hpp"
 #include "participant/backend.hpp"
 
 namespace grainstep::dem {
+
+using contact::MovingSurface;
 
 class RankExchange {
  public:

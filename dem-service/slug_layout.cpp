@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "contact/rest_on.hpp"
 #include "dem-service/packing.hpp"
 
 namespace grainstep::dem {
@@ -23,7 +24,7 @@ std::vector<PlacedParticle> lay_out(const SlugModel& model, const surface::Polyl
     centre = Vec2{{model.offset, 0.0}} + centre[0] * lateral - from_head * ahead;
     particles.push_back({centre, speed * ahead, 0.0});
   }
-  rest_on(surface, model.diameter, centres);
+  contact::rest_on(surface, model.diameter, centres);
   for (std::size_t i = 0; i < centres.size(); ++i) {
     particles[i].position = centres[i] + Vec2{{0.0, model.stand_off}};
   }

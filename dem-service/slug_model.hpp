@@ -3,11 +3,13 @@
 
 #include <cstdint>
 
-#include "dem-service/contact_law.hpp"
+#include "contact/contact_law.hpp"
 #include "dem-service/damping.hpp"
 #include "grainstep/scene.pb.h"
 
 namespace grainstep::dem {
+
+using contact::ContactLaw;
 
 /// Two-dimensional cylinders of depth b; SI.
 struct SlugModel {

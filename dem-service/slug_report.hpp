@@ -9,10 +9,13 @@
 
 #include "dem-service/pair/contacts.hpp"
 #include "dem-service/plane_contacts.hpp"
-#include "dem-service/surface_contacts.hpp"
+#include "contact/surface_contacts.hpp"
 #include "grainstep/wire.pb.h"
 
 namespace grainstep::dem {
+
+using contact::SurfaceContacts;
+using contact::SurfaceContactSettings;
 
 /// One rank's share of everything a report adds up. All doubles: reduced as one array.
 struct ReportSums {

@@ -26,6 +26,7 @@ NodeRow row_of(const Nodes& nodes, std::size_t first) {
 
 int state_components(const Material& material) {
   if (std::holds_alternative<Dh36>(material)) return kPlasticState;
+  if (std::holds_alternative<Foam>(material)) return kFoamState;
   return std::holds_alternative<Core>(material) ? kCoreState : kElasticState;
 }
 
@@ -135,6 +136,8 @@ SweepResult Body::sweep(double step) {
       kernels_->sweep_dh36(view, *steel, measure_);
     } else if (const auto* core = std::get_if<Core>(&material(row))) {
       kernels_->sweep_core(view, *core, measure_);
+    } else if (const auto* foam = std::get_if<Foam>(&material(row))) {
+      kernels_->sweep_foam(view, *foam, measure_);
     } else {
       kernels_->sweep_elastic(view, std::get<Elastic>(material(row)), measure_);
     }
@@ -222,7 +225,8 @@ Stress Body::stress(int row, int column, int triangle) const {
 
 double Body::plastic_strain(int row, int column, int triangle) const {
   if (std::holds_alternative<Core>(material(row))) return std::max(0.0, state(kCompaction, row, column, triangle));
-  return std::holds_alternative<Dh36>(material(row)) ? state(kPlasticStrain, row, column, triangle) : 0.0;
+  if (std::holds_alternative<Elastic>(material(row))) return 0.0;
+  return state(kPlasticStrain, row, column, triangle);
 }
 
 Body::TriangleNodes Body::triangle(int row, int column, int triangle) const {

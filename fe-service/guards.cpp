@@ -42,8 +42,8 @@ std::string name_of(const Body& body, const Found& element) {
 }
 
 std::string when(const Progress& progress) {
-  return fmt::format("at structure step {} (t = {:.6g} s; the last state that passed all checks is t = {:.6g} s)",
-                     progress.step, progress.time, progress.last_good_time);
+  return fmt::format("at {} step {} (t = {:.6g} s; the last state that passed all checks is t = {:.6g} s)",
+                     progress.body, progress.step, progress.time, progress.last_good_time);
 }
 
 /// The quad with the smallest stable step, and that step.
@@ -67,10 +67,9 @@ void check_quality(const Body& body, double limit, const Progress& progress) {
   if (worst.value >= limit) return;
   throw NumericalError(fmt::format(
       "element quality: {} has {:.3g} of its undeformed area{}, below guards.element_quality = {:g}, {}; refine the "
-      "mesh "
-      "(structure.mesh.refinement), take smaller steps (steps.structure), or check speed and stiffness of the impact",
+      "mesh ({}), take smaller steps ({}), or check speed and stiffness of the impact",
       name_of(body, worst), worst.value, worst.value <= 0.0 ? " (it is turned inside out)" : "", limit,
-      when(progress)));
+      when(progress), progress.mesh_key, progress.step_key));
 }
 
 void check_finite(const Body& body, const Progress& progress) {
@@ -91,9 +90,9 @@ void check_slivers(const Body& body, double undeformed_step, double limit, const
   if (worst.value >= limit * undeformed_step) return;
   throw NumericalError(fmt::format(
       "element quality: {} is drawn out so thin that it allows {:.3g} of the undeformed mesh's step, below "
-      "guards.element_quality = {:g}, {}; the run would not end: refine the mesh (structure.mesh.refinement), or check "
+      "guards.element_quality = {:g}, {}; the run would not end: refine the mesh ({}), or check "
       "speed and stiffness of the impact",
-      name_of_quad(body, worst), worst.value / undeformed_step, limit, when(progress)));
+      name_of_quad(body, worst), worst.value / undeformed_step, limit, when(progress), progress.mesh_key));
 }
 
 void check_fixed_step(const Body& body, double step, const Progress& progress) {
@@ -109,8 +108,8 @@ void check_fixed_step(const Body& body, double step, const Progress& progress) {
 void material_failed(const Body& body, const Progress& progress) {
   check_finite(body, progress);
   throw NumericalError(fmt::format(
-      "plastic flow: the local iteration of the material did not converge {}; take smaller steps (steps.structure)",
-      when(progress)));
+      "plastic flow: the local iteration of the material did not converge {}; take smaller steps ({})",
+      when(progress), progress.step_key));
 }
 
 }  // namespace grainstep::fe

@@ -11,6 +11,10 @@ struct Progress {
   std::uint64_t step = 0;       ///< structure steps taken
   double time = 0.0;            ///< s
   double last_good_time = 0.0;  ///< s, of the last state that passed all checks
+  // Of which body, and the keys that change its mesh and its step.
+  const char* body = "structure";
+  const char* mesh_key = "structure.mesh.refinement";
+  const char* step_key = "steps.structure";
 };
 
 /// Throws NumericalError naming the worst element if its area over its undeformed area is below `limit`.

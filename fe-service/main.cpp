@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "fe-service/load/prescribed_load.hpp"
+#include "fe-service/impactor.hpp"
 #include "fe-service/structure.hpp"
 #include "participant/connect.hpp"
 #include "participant/serve.hpp"
@@ -15,8 +15,8 @@ int run(const grainstep::participant::ConnectOptions& options, const std::string
   try {
     const auto channel = grainstep::participant::open(options);
     if (role == "impactor") {
-      grainstep::fe::PrescribedLoad load;
-      return grainstep::participant::serve_impactor(*channel, load);
+      grainstep::fe::Impactor impactor;
+      return grainstep::participant::serve_impactor(*channel, impactor);
     }
     grainstep::fe::Structure structure;
     return grainstep::participant::serve_structure(*channel, structure);
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   grainstep::participant::ConnectOptions options;
   grainstep::participant::add_connect_options(app, options);
   std::string role = "structure";
-  app.add_option("--role", role, "structure (default), or impactor: a prescribed pressure, or no load")
+  app.add_option("--role", role, "structure (default), or impactor: a foam projectile, a prescribed pressure, or no load")
       ->check(CLI::IsMember({"structure", "impactor"}));
   app.set_version_flag("--version", GRAINSTEP_VERSION);
   try {

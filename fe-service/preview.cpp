@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "fe-service/body.hpp"
 #include "fe-service/deformable.hpp"
+#include "fe-service/foam/model.hpp"
 #include "fe-service/layers.hpp"
 #include "participant/schedule.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double kElasticSeconds = 1.0 / 200e6;
 constexpr double kPlasticSeconds = 1.0 / 80e6;
 constexpr double kCoreSeconds = 1.0 / 80e6;
+constexpr double kFoamSeconds = 1.0 / 80e6;
 
 double seconds_of(const Material& material) {
   if (std::holds_alternative<Core>(material)) return kCoreSeconds;
@@ -61,6 +63,27 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
   } else {
     preview_beam(structure, depth, found);
   }
+  return found;
+}
+
+FoamPreview preview_foam(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
+  if (symmetry != scene::SYMMETRY_PLANE_STRAIN)
+    throw InputError("symmetry: a foam projectile is computed in `plane_strain` only; take impactor.type: slug");
+  const FoamModel model = make_foam_model(impactor, depth, mirror);
+  // All quads are alike: one is enough for the step.
+  Mesh quad = model.mesh;
+  quad.columns = 1;
+  quad.length = quad.width;
+  quad.rows.resize(1);
+  quad.level.resize(2);
+  const Body body(quad, {model.foam}, depth);
+  FoamPreview found;
+  found.elements = model.mesh.triangles();
+  found.stable_step = stable_step_in_touch(model, body.stable_step());
+  found.preferred_step = preferred_foam_step(impactor, found.stable_step);
+  found.contact_mass = 2.0 * body.corners.mass[0];
+  found.memory_bytes = body.memory_bytes() * model.mesh.batches() * model.mesh.rows.size();
+  found.seconds_per_element_step = kFoamSeconds;
   return found;
 }
 

@@ -21,6 +21,19 @@ struct StructurePreview {
   double seconds_per_element_step = 0.0;  ///< an estimate from bench_fe_kernel (docs/decisions/0003-element-loop.md)
 };
 
+struct FoamPreview {
+  std::uint64_t elements = 0;
+  double stable_step = 0.0;     ///< s
+  double preferred_step = 0.0;  ///< s
+  double contact_mass = 0.0;    ///< kg, of a node of the leading face
+  std::uint64_t memory_bytes = 0;
+  double seconds_per_element_step = 0.0;
+};
+
+/// Throws InputError for a foam projectile that grainstep-fe cannot compute. `mirror`: half of it.
+[[nodiscard]] FoamPreview preview_foam(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
+                                       bool mirror);
+
 /// Throws InputError for a structure that grainstep-fe cannot compute.
 [[nodiscard]] StructurePreview preview(const scene::Structure& structure, scene::Symmetry symmetry, double depth);
 

@@ -38,7 +38,10 @@ void print_plan(const StepPlan& plan) {
 }
 
 void print_sides(const Preparation& p) {
-  if (p.impactor && p.impactor->particles == 0) {
+  if (p.impactor && p.impactor->elements > 0) {
+    std::printf("foam elements            %llu, stable step %.4g s\n",
+                static_cast<unsigned long long>(p.impactor->elements), p.impactor->stable_step);
+  } else if (p.impactor && p.impactor->particles == 0) {
     std::printf("particles                0: a prescribed load, which has no step of its own\n");
   } else if (p.impactor) {
     std::printf("particles                %llu, stable step %.4g s, contact time %.4g s\n",

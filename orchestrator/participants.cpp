@@ -35,7 +35,9 @@ bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& o
   return by_scene || std::ranges::find(options.external, name_of(role)) != options.external.end();
 }
 
-bool has_particles(const scene::Scene& scene) { return scene::has_slug(scene); }
+bool has_particles(const scene::Scene& scene) {
+  return scene::has_slug(scene) && scene.impactor().type() != scene::Impactor::TYPE_FOAM;
+}
 
 Participants::Participants(const scene::Scene& scene, const RunOptions& options)
     : options_(options),

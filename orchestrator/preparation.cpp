@@ -1,5 +1,6 @@
 #include "orchestrator/preparation.hpp"
 
+#include "dem-service/preview.hpp"
 #include "orchestrator/participants.hpp"
 #include "participant/schedule.hpp"
 #include "scene/load.hpp"
@@ -8,11 +9,37 @@ namespace grainstep::orchestrator {
 
 namespace {
 
-// An impactor without particles follows the structure's steps.
-dem::ImpactorPreview without_particles() {
-  dem::ImpactorPreview out;
+// A prescribed load follows the structure's steps.
+ImpactorPreview without_mass() {
+  ImpactorPreview out;
   out.stable_step = out.preferred_step = participant::no_step_limit;
   return out;
+}
+
+ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
+  const dem::ImpactorPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
+  return {.particles = slug.particles,
+          .contact_mass = slug.particle_mass,
+          .contact_time = slug.contact_time,
+          .stable_step = slug.stable_step,
+          .preferred_step = slug.preferred_step,
+          .memory_bytes = slug.memory_bytes,
+          .seconds_per_step = static_cast<double>(slug.particles) * slug.seconds_per_particle_step};
+}
+
+ImpactorPreview of_foam(const scene::Scene& scene, bool mirror) {
+  const fe::FoamPreview foam = fe::preview_foam(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
+  return {.elements = foam.elements,
+          .contact_mass = foam.contact_mass,
+          .stable_step = foam.stable_step,
+          .preferred_step = foam.preferred_step,
+          .memory_bytes = foam.memory_bytes,
+          .seconds_per_step = static_cast<double>(foam.elements) * foam.seconds_per_element_step};
+}
+
+ImpactorPreview preview_impactor(const scene::Scene& scene, bool mirror) {
+  if (has_particles(scene)) return of_slug(scene, mirror);
+  return scene.impactor().type() == scene::Impactor::TYPE_FOAM ? of_foam(scene, mirror) : without_mass();
 }
 
 }  // namespace
@@ -33,12 +60,11 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
     out.structure = fe::preview(scene.structure(), scene.symmetry(), scene.depth());
   }
   if (!is_external(wire::IMPACTOR, scene, options)) {
-    out.impactor = has_particles(scene) ? dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror)
-                                        : without_particles();
+    out.impactor = preview_impactor(scene, mirror);
   }
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end,
-                          {out.impactor->stable_step, out.impactor->preferred_step, out.impactor->particle_mass},
+                          {out.impactor->stable_step, out.impactor->preferred_step, out.impactor->contact_mass},
                           {out.structure->stable_step, out.structure->preferred_step, out.structure->contact_mass});
   }
   return out;
@@ -49,8 +75,7 @@ std::optional<Cost> cost_of(const Preparation& p) {
     return std::nullopt;
   }
   const auto windows = static_cast<double>(p.plan->windows);
-  return Cost{.impactor = windows * p.plan->impactor_steps * static_cast<double>(p.impactor->particles) *
-                          p.impactor->seconds_per_particle_step,
+  return Cost{.impactor = windows * p.plan->impactor_steps * p.impactor->seconds_per_step,
               .structure = windows * p.plan->structure_steps * static_cast<double>(p.structure->elements) *
                            p.structure->seconds_per_element_step};
 }

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "dem-service/preview.hpp"
 #include "fe-service/preview.hpp"
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
@@ -14,12 +13,24 @@
 
 namespace grainstep::orchestrator {
 
+/// What an impactor will be, whatever its kind. Steps in s.
+struct ImpactorPreview {
+  std::uint64_t particles = 0;
+  std::uint64_t elements = 0;  ///< of a foam projectile
+  double contact_mass = 0.0;   ///< kg, the heaviest that touches at one point
+  double contact_time = 0.0;   ///< s, between particles
+  double stable_step = 0.0;
+  double preferred_step = 0.0;
+  std::uint64_t memory_bytes = 0;
+  double seconds_per_step = 0.0;  ///< estimate, one core
+};
+
 struct Preparation {
   scene::Scene scene;
   std::uint64_t hash = 0;
   std::string yaml;  ///< resolved
   scene::Groups groups;
-  std::optional<dem::ImpactorPreview> impactor;   ///< nullopt: external
+  std::optional<ImpactorPreview> impactor;        ///< nullopt: external
   std::optional<fe::StructurePreview> structure;  ///< nullopt: external
   std::optional<StepPlan> plan;                   ///< nullopt: an external side will say its steps
 };

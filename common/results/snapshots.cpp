@@ -19,6 +19,7 @@ Snapshots::Snapshots(const RunDirectory& directory, ResultsFile& file)
     : directory_(directory),
       file_(file),
       particles_{.name = "particles", .collection = vtk::TimeSeries(directory.path() / "particles.pvd")},
+      impactor_{.name = "impactor", .collection = vtk::TimeSeries(directory.path() / "impactor.pvd")},
       structure_{.name = "structure", .collection = vtk::TimeSeries(directory.path() / "structure.pvd")} {}
 
 void Snapshots::add_arrays(const std::string& group, double time, const wire::Snapshot& snapshot) {
@@ -51,13 +52,14 @@ void Snapshots::add_arrays(const std::string& group, double time, const wire::Sn
 
 void Snapshots::add(wire::Role side, double time, const wire::Snapshot& snapshot) {
   if (snapshot.position().empty()) return;  // an impactor without particles has nothing to show
-  Series& target = side == wire::IMPACTOR ? particles_ : structure_;
+  const bool is_mesh = snapshot.cell_size() > 0;
+  Series& of_impactor = is_mesh ? impactor_ : particles_;
+  Series& target = side == wire::IMPACTOR ? of_impactor : structure_;
   char number[32];
   std::snprintf(number, sizeof number, "%04llu", static_cast<unsigned long long>(target.count++));
   add_arrays(std::string("/snapshots/") + target.name + "/" + number, time, snapshot);
-  const bool is_particles = side == wire::IMPACTOR;
-  const std::string file = std::string(target.name) + "_" + number + (is_particles ? ".vtp" : ".vtu");
-  write_atomically(directory_.paraview() / file, is_particles ? vtk::particles(snapshot) : vtk::structure(snapshot));
+  const std::string file = std::string(target.name) + "_" + number + (is_mesh ? ".vtu" : ".vtp");
+  write_atomically(directory_.paraview() / file, is_mesh ? vtk::structure(snapshot) : vtk::particles(snapshot));
   target.collection.add(time, (directory_.paraview().filename() / file).string());
 }
 

@@ -21,16 +21,20 @@ class Snapshots {
 
  private:
   struct Series {
-    const char* name;  ///< "particles", "structure"
+    const char* name;  ///< "particles", "impactor", "structure"
     vtk::TimeSeries collection;
     std::uint64_t count = 0;
   };
-  [[nodiscard]] const Series& series(wire::Role side) const { return side == wire::IMPACTOR ? particles_ : structure_; }
+  [[nodiscard]] const Series& series(wire::Role side) const {
+    if (side != wire::IMPACTOR) return structure_;
+    return impactor_.count > 0 ? impactor_ : particles_;
+  }
   void add_arrays(const std::string& group, double time, const wire::Snapshot& snapshot);
 
   RunDirectory directory_;
   ResultsFile& file_;
   Series particles_;
+  Series impactor_;  ///< that is a mesh
   Series structure_;
 };
 

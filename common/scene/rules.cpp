@@ -46,6 +46,18 @@ void slug_moves(const Slug& slug, Findings& findings) {
   findings.push_back({Severity::warning, "impactor.slug.speed", "a slug at rest: nothing will hit the structure"});
 }
 
+void foam_follows_from(const Impactor& impactor, Findings& findings) {
+  const Slug& slug = impactor.slug();
+  if (!(slug.speed() > 0)) {
+    findings.push_back({Severity::error, "impactor.slug.speed",
+                        "found 0, but a foam's strength and viscosity follow from its speed; expected more"});
+  }
+  if (slug.relative_density() < impactor.foam().densest()) return;
+  findings.push_back({Severity::error, "impactor.foam.densest",
+                      "found " + rounded_text(impactor.foam().densest()) + ", but the slug's relative density is " +
+                          rounded_text(slug.relative_density()) + ": nothing would be left to compact; expected more"});
+}
+
 /// What a type of impactor needs, and what it would not read. A slug may stay: scenes inherit it from what they
 /// include.
 void impactor_is_described(const Impactor& impactor, bool slug, Findings& findings) {
@@ -192,10 +204,12 @@ std::vector<Finding> check_rules(const Scene& scene) {
   if (scene.impactor().pressure().has_tabulated()) table_is_one(scene.impactor().pressure().tabulated(), findings);
   if (!findings.empty()) return findings;  // nothing more can be said without it
   const double end = groups(scene).end;
+  const bool foam = scene.impactor().type() == Impactor::TYPE_FOAM;
+  if (foam) foam_follows_from(scene.impactor(), findings);
   if (slug) {
-    slug_holds_particles(scene.impactor().slug(), findings);
+    if (!foam) slug_holds_particles(scene.impactor().slug(), findings);
     slug_meets_structure(scene, findings);
-    slug_moves(scene.impactor().slug(), findings);
+    if (!foam) slug_moves(scene.impactor().slug(), findings);
   }
   const Pressure& pressure = scene.impactor().pressure();
   covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},

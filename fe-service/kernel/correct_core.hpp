@@ -7,7 +7,7 @@
 namespace grainstep::fe {
 namespace {
 
-/// What the core's update needs to know besides the predictor, per triangle.
+/// What the core's update, and a foam's, needs to know besides the predictor, per triangle.
 struct CoreFlow {
   double volume[kBatchTriangles];        ///< m^3, at the middle of the step
   double half_tangent[kBatchTriangles];  ///< tan of half the rotation during the step

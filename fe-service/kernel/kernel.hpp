@@ -9,6 +9,7 @@
 #include "fe-service/kernel/layout.hpp"
 #include "fe-service/materials/core.hpp"
 #include "fe-service/materials/dh36.hpp"
+#include "fe-service/materials/foam.hpp"
 #include "fe-service/measure.hpp"
 
 namespace grainstep::fe {
@@ -57,6 +58,7 @@ struct Kernels {
   void (*sweep_elastic)(RowSweep&, const Elastic&, const PlaneStrain&);
   void (*sweep_dh36)(RowSweep&, const Dh36&, const PlaneStrain&);
   void (*sweep_core)(RowSweep&, const Core&, const PlaneStrain&);
+  void (*sweep_foam)(RowSweep&, const Foam&, const PlaneStrain&);
   /// An upper bound of omega^2 of all quads of a row (upper, lower and centre positions, quads), 1/s^2, not below
   /// `at_least` and, where above, within kFrequencyTolerance of the smallest there is. `quad_mass` is that of a unit
   /// thickness, kg/m (kernel/frequency.hpp).

@@ -29,6 +29,7 @@ enum CoreComponent : int { kCompaction = 4, kAxisCosine, kAxisSine };
 inline constexpr int kElasticState = 4;
 inline constexpr int kPlasticState = 7;
 inline constexpr int kCoreState = 7;
+inline constexpr int kFoamState = 5;
 
 template <class T>
 struct AlignedAllocator {

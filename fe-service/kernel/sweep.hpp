@@ -2,7 +2,7 @@
 /// material, nodal forces. Measure and material are template parameters: there is no second copy of this loop.
 #pragma once
 
-#include "fe-service/kernel/correct_core.hpp"
+#include "fe-service/kernel/correct_foam.hpp"
 
 namespace grainstep::fe {
 namespace {
@@ -10,6 +10,7 @@ namespace {
 inline const Elastic& elasticity(const Elastic& law) { return law; }
 inline const Elastic& elasticity(const Dh36& law) { return law.elastic; }
 inline const Elastic& elasticity(const Core& law) { return law.elastic; }
+inline const Elastic& elasticity(const Foam& law) { return law.elastic; }
 
 /// What the correction by a material keeps per triangle, and how large its state is.
 template <class Law>
@@ -27,11 +28,17 @@ struct Correction<Core> {
   using Memory = CoreFlow;
   static constexpr int kState = kCoreState;
 };
+template <>
+struct Correction<Foam> {
+  using Memory = CoreFlow;
+  static constexpr int kState = kFoamState;
+};
 
 /// What a material wants to know of the step's length.
 inline double step_parameter(const Elastic&, double) { return 0.0; }
 inline double step_parameter(const Dh36& law, double step) { return std::log(step * law.reference_rate); }
 inline double step_parameter(const Core& law, double step) { return law.viscosity / step; }
+inline double step_parameter(const Foam& law, double step) { return law.viscosity / step; }
 
 // The body of every lane loop is one call: GCC gives aggregates that are declared in the body of an `omp simd` loop a
 // home in memory, which keeps it from vectorising; those of an inlined function become registers.

@@ -60,6 +60,7 @@ Material make_material(const scene::Structure& structure, int index) {
 const Elastic& elastic_part(const Material& material) {
   if (const auto* steel = std::get_if<Dh36>(&material)) return steel->elastic;
   if (const auto* core = std::get_if<Core>(&material)) return core->elastic;
+  if (const auto* foam = std::get_if<Foam>(&material)) return foam->elastic;
   return std::get<Elastic>(material);
 }
 

@@ -6,11 +6,13 @@
 
 #include "fe-service/materials/core.hpp"
 #include "fe-service/materials/dh36.hpp"
+#include "fe-service/materials/foam.hpp"
 #include "grainstep/scene.pb.h"
 
 namespace grainstep::fe {
 
-using Material = std::variant<Elastic, Dh36, Core>;
+/// A foam is no layer of a structure: it is what a projectile is made of (foam/model.hpp).
+using Material = std::variant<Elastic, Dh36, Core, Foam>;
 
 /// Of structure.layers[layer]. Throws InputError for a material that this program does not know, and for a core that is
 /// not one.

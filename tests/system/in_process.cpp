@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "dem-service/impactor.hpp"
-#include "fe-service/load/prescribed_load.hpp"
+#include "fe-service/impactor.hpp"
 #include "fe-service/structure.hpp"
 #include "orchestrator/conduct.hpp"
 #include "orchestrator/participants.hpp"
@@ -27,8 +27,8 @@ int run(const grainstep::orchestrator::RunOptions& options) {
   auto [structure, structure_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "structure"});
   std::thread particles([&preparation, end = std::move(impactor_end)] {
     if (!orchestrator::has_particles(preparation.scene)) {
-      fe::PrescribedLoad load;
-      return static_cast<void>(participant::serve_impactor(*end, load));
+      fe::Impactor backend;
+      return static_cast<void>(participant::serve_impactor(*end, backend));
     }
     const auto backend = dem::make_impactor({});
     static_cast<void>(participant::serve_impactor(*end, *backend));

@@ -1,5 +1,7 @@
 #include "dem-service/packing.hpp"
 
+#include "contact/rest_on.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,7 +85,7 @@ TEST(Packing, RestsOnTheSurfaceWithoutOverlap) {
     for (const double height : {-20.0, 0.0, 70.0}) {
       auto centres = pack_at_random(box, 300, 1.0, 1);
       for (Vec2& p : centres) p[1] += height;
-      rest_on(ground, 1.0, centres);
+      contact::rest_on(ground, 1.0, centres);
       EXPECT_GT(smallest_gap(ground, centres), 0.0);
       EXPECT_LT(smallest_gap(ground, centres), 1e-8);
     }

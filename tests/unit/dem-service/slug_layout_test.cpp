@@ -8,10 +8,12 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "dem-service/moving_surface.hpp"
+#include "contact/moving_surface.hpp"
 #include "engine_rig.hpp"
 
 namespace grainstep::dem {
+
+using contact::MovingSurface;
 namespace {
 
 using rig::slug_of;

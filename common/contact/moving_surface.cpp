@@ -1,4 +1,4 @@
-#include "dem-service/moving_surface.hpp"
+#include "contact/moving_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace grainstep::dem {
+namespace grainstep::contact {
 namespace {
 
 using surface::Vec2;
@@ -72,4 +72,4 @@ double MovingSurface::wandered() const {
 
 void MovingSurface::remember() { std::copy(now_.nodes().begin(), now_.nodes().end(), remembered_.begin()); }
 
-}  // namespace grainstep::dem
+}  // namespace grainstep::contact

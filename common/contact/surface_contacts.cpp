@@ -1,10 +1,10 @@
-#include "dem-service/surface_contacts.hpp"
+#include "contact/surface_contacts.hpp"
 
 #include <algorithm>
 #include <sstream>
 #include <utility>
 
-namespace grainstep::dem {
+namespace grainstep::contact {
 namespace {
 
 using surface::ClosestPoint;
@@ -14,12 +14,13 @@ using surface::Vec3;
 
 constexpr double round_off = 1e-13;  // of a radius: springs shorter than that carry nothing
 
-std::string tunnelled(const ParticleArrays& particles, int i, const ClosestPoint& at) {
+std::string tunnelled(const SurfaceContactSettings& settings, const ParticleArrays& particles, int i,
+                      const ClosestPoint& at) {
   const double* x = particles.position[i];
   std::ostringstream text;
-  text << "particle " << particles.identity[i] << " passed through the surface (tunnelled) at x1 = " << x[0]
+  text << settings.name << " " << particles.identity[i] << " passed through the surface (tunnelled) at x1 = " << x[0]
        << " m, x2 = " << x[1] << " m: its centre lies " << -at.distance << " m inside, more than its diameter "
-       << 2.0 * particles.radius[i] << " m; take shorter steps (steps.impactor) or raise normal_stiffness";
+       << 2.0 * particles.radius[i] << " m; " << settings.remedy;
   return text.str();
 }
 
@@ -55,7 +56,7 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
     const std::span<const std::uint32_t> segments(near_.data() + candidate.first, candidate.last - candidate.first);
     const ClosestPoint at = surface.now().closest(in_plane(particles.position[i]), segments);
     if (at.distance < particles.radius[i]) {
-      if (at.distance < -2.0 * particles.radius[i] && !failure) failure = tunnelled(particles, i, at);
+      if (at.distance < -2.0 * particles.radius[i] && !failure) failure = tunnelled(settings_, particles, i, at);
       touch(particles, surface, i, at, dt);
       const Vec3& total = contacts_.back().total;
       surface.now().spread({{-weight * total[0], -weight * total[1]}}, at, nodal);
@@ -130,4 +131,4 @@ void SurfaceContacts::end_interval(const ParticleArrays& particles, const Moving
   ledger_.add(dt / 2.0, particle_side_, surface_side(surface));
 }
 
-}  // namespace grainstep::dem
+}  // namespace grainstep::contact

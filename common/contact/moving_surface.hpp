@@ -6,7 +6,7 @@
 #include "grainstep/wire.pb.h"
 #include "surface/polyline.hpp"
 
-namespace grainstep::dem {
+namespace grainstep::contact {
 
 class MovingSurface {
  public:
@@ -39,4 +39,4 @@ class MovingSurface {
   std::vector<surface::Vec2> from_, to_, velocity_, remembered_;
 };
 
-}  // namespace grainstep::dem
+}  // namespace grainstep::contact

@@ -1,8 +1,8 @@
-#include "dem-service/contact_law.hpp"
+#include "contact/contact_law.hpp"
 
 #include <gtest/gtest.h>
 
-namespace grainstep::dem {
+namespace grainstep::contact {
 namespace {
 
 constexpr ContactLaw law{.normal_stiffness = 100.0,
@@ -91,4 +91,4 @@ TEST(ContactLaw, SpringTurnsWithTheSurfaceAndKeepsItsLength) {
 }
 
 }  // namespace
-}  // namespace grainstep::dem
+}  // namespace grainstep::contact

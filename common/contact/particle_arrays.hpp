@@ -1,11 +1,12 @@
-/// @file This rank's particles as the engine holds them: views, valid until particles are next sorted or exchanged.
+/// @file What touches the surface, as its owner holds it: a rank's particles, or the boundary nodes of a block as discs.
+/// Views, valid until particles are next sorted or exchanged.
 #pragma once
 
 #include <cstdint>
 
 #include "surface/vec.hpp"
 
-namespace grainstep::dem {
+namespace grainstep::contact {
 
 struct ParticleArrays {
   int owned = 0;
@@ -26,4 +27,4 @@ inline void add_to(double* a, const surface::Vec3& b) {
   for (std::size_t i = 0; i < 3; ++i) a[i] += b[i];
 }
 
-}  // namespace grainstep::dem
+}  // namespace grainstep::contact

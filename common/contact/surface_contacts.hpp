@@ -1,4 +1,5 @@
-/// @file Contact of particles with the moving surface: who is near, forces, reactions, ledger. No LAMMPS.
+/// @file Contact of particles with the moving surface: who is near, forces, reactions, ledger. The nodes of a block are
+/// particles as well, discs that do not turn.
 ///
 /// Order of calls: rebuild() whenever particles were reordered or either side has moved by its share of the margin;
 /// then per step begin_interval(), evaluate(), apply(), and end_interval() once velocities stand at t(n).
@@ -9,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "dem-service/contact_law.hpp"
-#include "dem-service/interface_ledger.hpp"
-#include "dem-service/moving_surface.hpp"
-#include "dem-service/particle_arrays.hpp"
+#include "contact/contact_law.hpp"
+#include "contact/interface_ledger.hpp"
+#include "contact/moving_surface.hpp"
+#include "contact/particle_arrays.hpp"
 #include "surface/segment_grid.hpp"
 
-namespace grainstep::dem {
+namespace grainstep::contact {
 
 struct SurfaceContactSettings {
   ContactLaw law;
@@ -23,6 +24,8 @@ struct SurfaceContactSettings {
   double largest_radius = 0.0;   ///< m
   double particle_margin = 0.0;  ///< m a particle may move between two rebuilds
   double surface_margin = 0.0;   ///< m a node may move between two rebuilds
+  const char* name = "particle";  ///< of what touches, in messages
+  const char* remedy = "take shorter steps (steps.impactor) or raise normal_stiffness";  ///< against passing through
 };
 
 class SurfaceContacts {
@@ -85,4 +88,4 @@ class SurfaceContacts {
   double largest_overlap_ = 0.0;
 };
 
-}  // namespace grainstep::dem
+}  // namespace grainstep::contact

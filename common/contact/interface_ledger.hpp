@@ -7,7 +7,7 @@
 
 #include "surface/vec.hpp"
 
-namespace grainstep::dem {
+namespace grainstep::contact {
 
 /// The parts that depend on particles, velocities at t(n). Powers in W.
 struct ParticleSide {
@@ -40,4 +40,4 @@ struct InterfaceLedger {
   }
 };
 
-}  // namespace grainstep::dem
+}  // namespace grainstep::contact

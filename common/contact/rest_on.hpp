@@ -1,0 +1,14 @@
+/// @file First touch: what hits is put where it just touches the surface.
+#pragma once
+
+#include <vector>
+
+#include "surface/polyline.hpp"
+
+namespace grainstep::contact {
+
+/// Lowers (or raises) all discs together until the first one just touches the surface: the smallest gap is zero but for
+/// round-off, and never negative. Throws InputError when no disc stands above the surface.
+void rest_on(const surface::Polyline& surface, double diameter, std::vector<surface::Vec2>& centres);
+
+}  // namespace grainstep::contact
