@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "contact/surface_contacts.hpp"
 #include "dem-service/pair/contacts.hpp"
 #include "dem-service/plane_contacts.hpp"
-#include "contact/surface_contacts.hpp"
 #include "grainstep/wire.pb.h"
 
 namespace grainstep::dem {

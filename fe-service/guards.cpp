@@ -68,8 +68,8 @@ void check_quality(const Body& body, double limit, const Progress& progress) {
   throw NumericalError(fmt::format(
       "element quality: {} has {:.3g} of its undeformed area{}, below guards.element_quality = {:g}, {}; refine the "
       "mesh ({}), take smaller steps ({}), or check speed and stiffness of the impact",
-      name_of(body, worst), worst.value, worst.value <= 0.0 ? " (it is turned inside out)" : "", limit,
-      when(progress), progress.mesh_key, progress.step_key));
+      name_of(body, worst), worst.value, worst.value <= 0.0 ? " (it is turned inside out)" : "", limit, when(progress),
+      progress.mesh_key, progress.step_key));
 }
 
 void check_finite(const Body& body, const Progress& progress) {
@@ -88,11 +88,11 @@ void check_finite(const Body& body, const Progress& progress) {
 void check_slivers(const Body& body, double undeformed_step, double limit, const Progress& progress) {
   const Found worst = stiffest_quad(body);
   if (worst.value >= limit * undeformed_step) return;
-  throw NumericalError(fmt::format(
-      "element quality: {} is drawn out so thin that it allows {:.3g} of the undeformed mesh's step, below "
-      "guards.element_quality = {:g}, {}; the run would not end: refine the mesh ({}), or check "
-      "speed and stiffness of the impact",
-      name_of_quad(body, worst), worst.value / undeformed_step, limit, when(progress), progress.mesh_key));
+  throw NumericalError(
+      fmt::format("element quality: {} is drawn out so thin that it allows {:.3g} of the undeformed mesh's step, below "
+                  "guards.element_quality = {:g}, {}; the run would not end: refine the mesh ({}), or check "
+                  "speed and stiffness of the impact",
+                  name_of_quad(body, worst), worst.value / undeformed_step, limit, when(progress), progress.mesh_key));
 }
 
 void check_fixed_step(const Body& body, double step, const Progress& progress) {
@@ -107,9 +107,9 @@ void check_fixed_step(const Body& body, double step, const Progress& progress) {
 
 void material_failed(const Body& body, const Progress& progress) {
   check_finite(body, progress);
-  throw NumericalError(fmt::format(
-      "plastic flow: the local iteration of the material did not converge {}; take smaller steps ({})",
-      when(progress), progress.step_key));
+  throw NumericalError(
+      fmt::format("plastic flow: the local iteration of the material did not converge {}; take smaller steps ({})",
+                  when(progress), progress.step_key));
 }
 
 }  // namespace grainstep::fe

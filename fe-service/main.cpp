@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
   grainstep::participant::ConnectOptions options;
   grainstep::participant::add_connect_options(app, options);
   std::string role = "structure";
-  app.add_option("--role", role, "structure (default), or impactor: a foam projectile, a prescribed pressure, or no load")
+  app.add_option("--role", role,
+                 "structure (default), or impactor: a foam projectile, a prescribed pressure, or no load")
       ->check(CLI::IsMember({"structure", "impactor"}));
   app.set_version_flag("--version", GRAINSTEP_VERSION);
   try {

@@ -1,6 +1,7 @@
 /// @file The contact law of particles: linear spring and dashpot along the normal, spring and slider tangentially
 /// (2.1, 2.2). Used for particles on the structure and on the mirror plane, and without dashpot for the nodes of a foam
-/// projectile; for pairs of particles it is in dem-service/pair/law.hpp. Why and with which signs: docs/theory/contact.md.
+/// projectile; for pairs of particles it is in dem-service/pair/law.hpp. Why and with which signs:
+/// docs/theory/contact.md.
 ///
 /// Operations come in the order in which LAMMPS's granular styles do them: where the same particle meets the same flat
 /// wall, every bit of the force is the same. Regrouping a product is allowed, but shows in DemWallGran.

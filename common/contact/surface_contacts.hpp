@@ -21,9 +21,9 @@ namespace grainstep::contact {
 struct SurfaceContactSettings {
   ContactLaw law;
   bool lever_is_radius = false;
-  double largest_radius = 0.0;   ///< m
-  double particle_margin = 0.0;  ///< m a particle may move between two rebuilds
-  double surface_margin = 0.0;   ///< m a node may move between two rebuilds
+  double largest_radius = 0.0;    ///< m
+  double particle_margin = 0.0;   ///< m a particle may move between two rebuilds
+  double surface_margin = 0.0;    ///< m a node may move between two rebuilds
   const char* name = "particle";  ///< of what touches, in messages
   const char* remedy = "take shorter steps (steps.impactor) or raise normal_stiffness";  ///< against passing through
 };

@@ -1,5 +1,5 @@
-/// @file The nodes of a block on the moving surface: what the particles of a slug do there (contact/surface_contacts.hpp),
-/// done by discs of the nodes' mass that do not turn.
+/// @file The nodes of a block on the moving surface: what the particles of a slug do there
+/// (contact/surface_contacts.hpp), done by discs of the nodes' mass that do not turn.
 ///
 /// Order of calls per step: begin_interval(), evaluate(), push(), end_interval().
 #pragma once

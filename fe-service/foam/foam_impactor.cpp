@@ -184,7 +184,8 @@ void FoamImpactor::report(const Velocities& before, const Velocities& at, Vec2 s
 Progress FoamImpactor::progress() const {
   Progress progress;
   progress.step = steps_;
-  progress.time = window_length_ * (static_cast<double>(window_) - 1.0 + static_cast<double>(step_in_window_) / steps_in_window_);
+  progress.time =
+      window_length_ * (static_cast<double>(window_) - 1.0 + static_cast<double>(step_in_window_) / steps_in_window_);
   progress.last_good_time = last_good_time_;
   progress.body = "foam";
   progress.mesh_key = "impactor.foam.elements";

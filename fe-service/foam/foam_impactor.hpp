@@ -1,10 +1,10 @@
 /// @file The equivalent foam projectile as an impactor: a block of foam whose nodes touch the structure's surface.
 ///
-/// A window of length T is done in p steps h = T/p, more where elements that flatten ask for it. Each is a step of central
-/// differences, as of a structure (deformable.hpp): at t(k) contact and internal forces, whose impulses count half for the
-/// step before and half for the one after, take V(k-1/2) to V(k+1/2). The surface moves linearly within a window, and
-/// what is handed over is the impulse of all contact forces in it. Reports at t(n) interpolate the velocity between both
-/// steps and count the same part of each impulse, so that momentum closes to round-off.
+/// A window of length T is done in p steps h = T/p, more where elements that flatten ask for it. Each is a step of
+/// central differences, as of a structure (deformable.hpp): at t(k) contact and internal forces, whose impulses count
+/// half for the step before and half for the one after, take V(k-1/2) to V(k+1/2). The surface moves linearly within a
+/// window, and what is handed over is the impulse of all contact forces in it. Reports at t(n) interpolate the velocity
+/// between both steps and count the same part of each impulse, so that momentum closes to round-off.
 #pragma once
 
 #include <memory>
@@ -46,11 +46,11 @@ class FoamImpactor final : public participant::ImpactorBackend {
   double undeformed_step_ = 0.0, stable_step_ = 0.0;
 
   double window_length_ = 0.0;
-  std::uint64_t window_ = 0;            ///< n: the window in progress ends with t(n)
-  std::uint32_t steps_in_window_ = 1;   ///< p of the window in progress
-  std::uint32_t step_in_window_ = 1;    ///< k: the state stands at the end of this step
-  std::uint32_t steps_needed_ = 1;      ///< p of the next one
-  double step_before_ = 0.0;            ///< s; 0 at the start
+  std::uint64_t window_ = 0;           ///< n: the window in progress ends with t(n)
+  std::uint32_t steps_in_window_ = 1;  ///< p of the window in progress
+  std::uint32_t step_in_window_ = 1;   ///< k: the state stands at the end of this step
+  std::uint32_t steps_needed_ = 1;     ///< p of the next one
+  double step_before_ = 0.0;           ///< s; 0 at the start
   std::uint64_t steps_ = 0;
   double last_good_time_ = 0.0;
   double plastic_work_ = 0.0;

@@ -88,8 +88,7 @@ FoamModel make_foam_model(const scene::Impactor& impactor, double depth, bool mi
   model.stand_off = slug.stand_off();
   model.confined = slug.confined();
   model.radius = kSkin * model.mesh.element_size;
-  model.contact_stiffness =
-      impactor.foam().contact_stiffness() * model.foam.elastic.longitudinal_modulus() * depth;
+  model.contact_stiffness = impactor.foam().contact_stiffness() * model.foam.elastic.longitudinal_modulus() * depth;
   model.friction = impactor.foam().friction();
   model.tangential_stiffness = slug.particle().tangential_ratio() * model.contact_stiffness;
   return model;

@@ -1,5 +1,5 @@
-/// @file Everything that follows from the keys of a slug and its foam (4.7) to (4.14): the block, its material, its mesh,
-/// its contact, its steps.
+/// @file Everything that follows from the keys of a slug and its foam (4.7) to (4.14): the block, its material, its
+/// mesh, its contact, its steps.
 #pragma once
 
 #include "fe-service/materials/foam.hpp"

@@ -37,6 +37,7 @@ void drift(double* __restrict position, const double* __restrict velocity, doubl
 
 extern const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA);
 const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {
-    GS_TEXT(GRAINSTEP_FE_ISA), &sweep<Elastic>, &sweep<Dh36>, &sweep<Core>, &sweep<Foam>, &largest_frequency, &kick, &drift};
+    GS_TEXT(GRAINSTEP_FE_ISA), &sweep<Elastic>, &sweep<Dh36>, &sweep<Core>, &sweep<Foam>,
+    &largest_frequency,        &kick,           &drift};
 
 }  // namespace grainstep::fe

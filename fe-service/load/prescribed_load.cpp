@@ -32,7 +32,8 @@ wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
     pressure_ = impactor.pressure();
     patch_.emplace(surface, impactor.pressure());
   } else if (impactor.type() != scene::Impactor::TYPE_NONE) {
-    throw InputError("impactor.type: grainstep-fe plays `foam`, `pressure` and `none`; a slug is computed by grainstep-dem");
+    throw InputError(
+        "impactor.type: grainstep-fe plays `foam`, `pressure` and `none`; a slug is computed by grainstep-dem");
   }
   depth_ = setup.depth();
   now_.assign(surface.position().begin(), surface.position().end());

@@ -11,7 +11,8 @@
 ///     s_pl f(x) + (eta/dt) x = 1                                                      the flow rule over s_hat
 /// f is concave and increasing: it is 1/sqrt(1/u^2 + 1/v^2), concave and increasing in u and v, of two straight lines
 /// in x. So Newton's method from x = 0 climbs to the only root without passing it, at any step and viscosity, none
-/// included. Where the increment x/f(x), which grows with x, is more than what the plateau has left (r), the step ends at
+/// included. Where the increment x/f(x), which grows with x, is more than what the plateau has left (r), the step ends
+/// at
 ///     f(x) = x/r,
 /// and Newton's method from the first root comes down to that one without passing it, for f - x/r is concave as well.
 #pragma once
