@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact/rest_on.hpp"
 #include "dem-service/lammps_session.hpp"
 #include "dem-service/packing.hpp"
 #include "dem-service/slug_model.hpp"
@@ -47,7 +48,7 @@ class PlainSlug {
     const double radius = model.diameter / 2.0;
     auto centres = dem::pack_at_random({{{radius, radius}}, {{model.half_width - radius, model.height - radius}}},
                                        model.particles, model.diameter, model.seed);
-    dem::rest_on(surface::Polyline({{{-1.0, 0.0}}, {{1.0, 0.0}}}, {{0, 1}}), model.diameter, centres);
+    contact::rest_on(surface::Polyline({{{-1.0, 0.0}}, {{1.0, 0.0}}}, {{0, 1}}), model.diameter, centres);
     std::vector<int> id;
     const std::vector<int> type(centres.size(), 1);
     std::vector<double> x;
