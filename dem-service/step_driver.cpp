@@ -81,7 +81,17 @@ void StepDriver::next_interval(std::uint64_t step, const ParticleArrays& particl
   if (contacts_.surface_left_margin(surface_)) contacts_.rebuild(particles, surface_);
 }
 
+// Pair forces do not need the surface. The first step of a window computes them before it waits for the structure's
+// answer, which then has had the pair forces of two steps for its way; the last one hands over before it computes them.
+bool StepDriver::waits_after_pair_forces(std::uint64_t step) const {
+  return start_.impactor_steps() > 1 && step % start_.impactor_steps() == 1;
+}
+
 void StepDriver::before_pair_forces(std::uint64_t step, const ParticleArrays& particles) {
+  if (!waits_after_pair_forces(step)) touch(step, particles);
+}
+
+void StepDriver::touch(std::uint64_t step, const ParticleArrays& particles) {
   if (step > 0 && !ended_) next_interval(step, particles);
   if (ended_) return;
   const double weight = step == 0 ? settings_.dt / 2.0 : settings_.dt;
@@ -91,7 +101,8 @@ void StepDriver::before_pair_forces(std::uint64_t step, const ParticleArrays& pa
   if (step % start_.impactor_steps() == 0) exchange_.hand_over(step / start_.impactor_steps(), nodal_);
 }
 
-void StepDriver::after_pair_forces(const ParticleArrays& particles) {
+void StepDriver::after_pair_forces(std::uint64_t step, const ParticleArrays& particles) {
+  if (waits_after_pair_forces(step)) touch(step, particles);
   if (ended_) return;
   contacts_.apply(particles);
   for (const PlaneContacts& plane : planes_) plane.apply(particles);

@@ -29,8 +29,8 @@ class StepDriver {
   /// Contact with surface and planes at this step; at a window's end the impulse is on its way before this returns.
   void before_pair_forces(std::uint64_t step, const ParticleArrays& particles);
 
-  /// Adds the forces that before_pair_forces() has found.
-  void after_pair_forces(const ParticleArrays& particles);
+  /// Adds the forces on particles that touch the surface, a mirror or a wall.
+  void after_pair_forces(std::uint64_t step, const ParticleArrays& particles);
 
   /// Velocities at t(n). `pairs`: of this rank's contacts between particles.
   void end_of_step(std::uint64_t step, const ParticleArrays& particles, const PairEnergy& pairs);
@@ -39,6 +39,8 @@ class StepDriver {
   [[nodiscard]] bool ended() const { return ended_; }
 
  private:
+  [[nodiscard]] bool waits_after_pair_forces(std::uint64_t step) const;
+  void touch(std::uint64_t step, const ParticleArrays& particles);
   void next_interval(std::uint64_t step, const ParticleArrays& particles);
   void check_speed(const ParticleArrays& particles);
   void check_surface_speed();

@@ -87,7 +87,9 @@ void SurfaceFix::pre_force(int /*flags*/) {
   guarded([&] { driver_->before_pair_forces(step(), particles()); });
 }
 
-void SurfaceFix::post_force(int /*flags*/) { driver_->after_pair_forces(particles()); }
+void SurfaceFix::post_force(int /*flags*/) {
+  guarded([&] { driver_->after_pair_forces(step(), particles()); });
+}
 
 void SurfaceFix::setup(int flags) {
   post_force(flags);

@@ -50,6 +50,13 @@ class Deformable final : public WindowedStructure {
     double work_before = 0.0;                         ///< J, the same with the velocities before the step
   };
 
+  /// Sums over the elements of t(n), which a report needs.
+  struct ElementSums {
+    double elastic = 0.0;  ///< J
+    PlasticExtent plastic;
+  };
+
+  [[nodiscard]] ElementSums sum_elements() const { return {elastic_energy(body_), plastic_extent(body_)}; }
   [[nodiscard]] Received kick(const wire::Forces& forces, double internal_weight);
   void keep(participant::Due due, const Velocities& before, double weight, const Received& gained);
   void fill_report(const Velocities& before, const Velocities& at, const Received& until);
@@ -81,6 +88,8 @@ class Deformable final : public WindowedStructure {
   double peak_compression_ = 0.0, peak_compression_time_ = 0.0;  ///< of the core
   std::vector<Vec2> travelled_;  ///< of the surface's nodes in this window: sum of their steps' velocities, m/s
 
+  wire::Start start_;
+  std::optional<ElementSums> element_sums_;  ///< of t(n), taken beforehand
   wire::Report report_;
   wire::Snapshot snapshot_;
 };

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "participant/conversation.hpp"
+#include "participant/give_way.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::participant {
@@ -127,6 +128,7 @@ int end_badly(Conversation& talk, const ServeOptions& options, const BadEnd& end
 template <class Backend>
 int serve(transport::Channel& channel, Backend& backend, const ServeOptions& options) {
   Conversation talk(channel, options);
+  give_way_to_messages();
   const auto bad = [&](wire::Error::Kind kind, ExitCode code, const std::exception& error) {
     return end_badly(talk, options, {kind, code, error.what()});
   };
