@@ -68,7 +68,9 @@ Json summary(const SummaryInput& in) {
   out["peak_core_compression_time"] = number(f.peak_core_compression_time.value_or(absent) / g.reference_time);
   out["energy_drift"] = in.plan ? number(f.energy_drift) : Json(nullptr);
   out["momentum_error"] = in.plan ? number(f.momentum_error) : Json(nullptr);
-  out["particles"] = in.impactor.size();
+  const bool foam = in.scene.impactor().type() == scene::Impactor::TYPE_FOAM;
+  out["particles"] = foam ? 0 : in.impactor.size();
+  out["impactor_elements"] = foam ? in.impactor.size() : 0;
   out["elements"] = in.structure.size();
   out["impactor_steps"] = std::max(f.impactor_steps, in.impactor_timing.steps());
   out["structure_steps"] = std::max(f.structure_steps, in.structure_timing.steps());
@@ -99,7 +101,10 @@ std::string digest(const Json& s) {
   out += "\nledgers              momentum error " + text_of(s.at("momentum_error"), "%.1e") + ", energy drift " +
          text_of(s.at("energy_drift"), "%.2e");
   const Json& split = s.at("wall_split");
-  out += "\nsize                 " + text_of(s.at("particles"), "%.0f") + " particles, " +
+  const bool foam = s.value("impactor_elements", 0.0) > 0.0;
+  out += "\nsize                 " +
+         (foam ? text_of(s.at("impactor_elements"), "%.0f") + " foam elements, "
+               : text_of(s.at("particles"), "%.0f") + " particles, ") +
          text_of(s.at("elements"), "%.0f") + " elements, " + text_of(s.at("impactor_steps"), "%.0f") + " and " +
          text_of(s.at("structure_steps"), "%.0f") + " steps";
   out += "\nwall clock           " + text_of(s.at("wall_seconds"), "%.1f") + " s: impactor " +

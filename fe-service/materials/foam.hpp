@@ -82,8 +82,9 @@ GS_ALWAYS_INLINE FoamIteration foam_step(const Foam& law, const FoamStress& tria
 GS_ALWAYS_INLINE FoamIteration foam_lock_step(const Foam& law, const FoamStress& trial, double room, double x) {
   const Softness f = softness(law, trial, x);
   const double miss = x / room - f.value;
-  const double down = miss > 0.0 ? miss / (1.0 / room - f.slope) : 0.0;
-  return {x - down, miss / f.value};
+  // Where the tangent meets the line, not x less a step: the two may differ by all digits.
+  const double met = (f.value - f.slope * x) / (1.0 / room - f.slope);
+  return {miss > 0.0 ? met : x, miss / f.value};
 }
 
 /// Stress at the end of the step.
