@@ -36,6 +36,15 @@ class Ended:
             return file[name][()]
 
 
+def frequency(signal, interval):
+    """Of a signal's strongest component, 1/s: parabola through the logarithm of a windowed, padded spectrum's peak."""
+    length = 16 * len(signal)
+    spectrum = np.abs(np.fft.rfft((signal - signal.mean()) * np.hanning(len(signal)), length))
+    peak = spectrum.argmax()
+    left, top, right = np.log(spectrum[peak - 1:peak + 2])
+    return (peak + 0.5 * (left - right) / (left - 2 * top + right)) / (length * interval)
+
+
 class HardCases(unittest.TestCase):
     def compare(self, scene, quantity, expected, found, tolerance, reason, reference, unit=""):
         check(self, Comparison(group="hard cases", name=scene, quantity=quantity, unit=unit, reference=reference,
@@ -149,6 +158,22 @@ class HardCases(unittest.TestCase):
 
     def test_window_too_long(self):
         self.refused("window-too-long", 2, "steps.structure", "longer than a contact lasts")
+
+    def test_ten_million_steps(self):
+        scene = "ten-million-steps"
+        run = self.done(scene)
+        self.compare(scene, "steps of the structure", 1e7, run.summary["structure_steps"], 0.0, "exact", "the scene")
+        self.compare(scene, "energy drift over ten million steps", 0.0, run.summary["energy_drift"], 1e-8,
+                     "discretisation: what is conserved is that of a linear body, and this one turns a little",
+                     "free vibration")
+        time = run.dataset("series/time")
+        self.compare(scene, "largest |t - n T|", 0.0, np.abs(time - np.arange(len(time)) * 1e-3).max(), 0.0,
+                     "exact: time is an integer", "t(n) = n T", unit="s")
+        deflection = run.dataset("series/structure/deflection")
+        tenth = len(time) // 10
+        self.compare(scene, "frequency in the last tenth", frequency(deflection[:tenth], 1e-3),
+                     frequency(deflection[-tenth:], 1e-3), 1e-7, "round-off, and what the estimate resolves of it",
+                     "frequency in the first tenth", unit="1/s")
 
     def test_thin(self):
         run = self.done("thin")
