@@ -1,0 +1,52 @@
+/// @file What the tests of the conversation share: an observer that keeps everything, and a peer that is played by
+/// hand.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "orchestrator/step_observer.hpp"
+#include "transport/in_process_channel.hpp"
+#include "wire/message_channel.hpp"
+
+namespace grainstep::orchestrator {
+
+/// Keeps everything that passes by.
+class Witness final : public StepObserver {
+ public:
+  void forces(const wire::Forces& forces) override { forces_.push_back(forces); }
+  void report(wire::Role side, const wire::Report& report) override {
+    (side == wire::IMPACTOR ? impactor_ : structure_).push_back(report);
+  }
+  void snapshot(wire::Role side, wire::Snapshot snapshot) override {
+    ++(side == wire::IMPACTOR ? particles_ : meshes_);
+    EXPECT_GT(snapshot.position_size(), 0);
+  }
+  void idle() override {}
+  void finish() override { ++finished_; }
+
+  std::vector<wire::Forces> forces_;
+  std::vector<wire::Report> impactor_;
+  std::vector<wire::Report> structure_;
+  int particles_ = 0;
+  int meshes_ = 0;
+  int finished_ = 0;
+};
+
+/// A peer that is played by hand.
+class ByHand {
+ public:
+  explicit ByHand(const char* name) {
+    std::tie(near_, far_) = transport::make_in_process_pair({.first = "orchestrator", .second = name});
+    messages_.emplace(*far_, "orchestrator");
+  }
+  std::unique_ptr<transport::Channel> near_;
+  std::unique_ptr<transport::Channel> far_;
+  std::optional<wire::MessageChannel> messages_;
+};
+
+}  // namespace grainstep::orchestrator

@@ -1,0 +1,154 @@
+#include "orchestrator/lock_step.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "hand_played.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+using ::testing::HasSubstr;
+
+class HandPlayed : public ::testing::Test {
+ protected:
+  HandPlayed() : hub_(*impactor_.near_, *structure_.near_, loop_) {
+    for (const double x : {0.0, 0.0, 1.0, 0.0}) hub_.structure().ready.mutable_surface()->add_position(x);
+    start_.set_window(1e-3);
+    start_.set_windows(10);
+    start_.set_report_every(5);
+  }
+  static wire::Forces forces(std::uint64_t window, double value = -1.0) {
+    wire::Forces out;
+    out.set_window(window);
+    for (int i = 0; i < 4; ++i) out.add_impulse(value);
+    return out;
+  }
+  static wire::Kinematics kinematics(std::uint64_t window) {
+    wire::Kinematics out;
+    out.set_window(window);
+    for (const double x : {0.0, 0.0, 1.0, 0.0}) {
+      out.add_position(x);
+      out.add_velocity(0.0);
+    }
+    return out;
+  }
+  std::string run(double silence_s = 20.0) {
+    try {
+      LockStep(hub_, witness_, start_, silence_s).run();
+    } catch (const PeerError& error) {
+      return std::string("peer: ") + error.what();
+    } catch (const NumericalError& error) {
+      return std::string("numerical: ") + error.what();
+    }
+    return "";
+  }
+
+  ByHand impactor_{"impactor"};
+  ByHand structure_{"structure"};
+  EventLoop loop_;
+  Hub hub_;
+  wire::Start start_;
+  Witness witness_;
+};
+
+TEST_F(HandPlayed, PassesForcesOnUnchanged) {
+  impactor_.messages_->send(forces(0, -0.1));
+  EXPECT_THAT(run(0.2), HasSubstr("peer: structure: said nothing for"));
+  const wire::Frame* frame = structure_.messages_->receive(transport::Clock::now());
+  ASSERT_NE(frame, nullptr);
+  wire::Forces seen;
+  structure_.messages_->take(*frame, seen, 0);
+  EXPECT_EQ(seen.SerializeAsString(), forces(0, -0.1).SerializeAsString());
+}
+
+TEST_F(HandPlayed, NamesTheSideThatIsSilent) { EXPECT_THAT(run(0.1), HasSubstr("peer: impactor: said nothing for")); }
+
+TEST_F(HandPlayed, RefusesAWindowThatIsNotNext) {
+  impactor_.messages_->send(forces(1));
+  EXPECT_THAT(run(), HasSubstr("expected Forces of window 0, got Forces of window 1"));
+}
+
+TEST_F(HandPlayed, RefusesForcesThatDidNotWaitForTheSurface) {
+  impactor_.messages_->send(forces(0));
+  impactor_.messages_->send(forces(1));
+  EXPECT_THAT(run(), HasSubstr("peer: impactor: message 2: expected no Forces before the Kinematics of window 1"));
+}
+
+TEST_F(HandPlayed, RefusesKinematicsNobodyAskedFor) {
+  structure_.messages_->send(kinematics(1));
+  EXPECT_THAT(run(), HasSubstr("peer: structure: message 1: expected no Kinematics before the next Forces"));
+}
+
+TEST_F(HandPlayed, RefusesAMessageOfTheWrongSize) {
+  auto wrong = forces(0);
+  wrong.add_impulse(0.0);
+  impactor_.messages_->send(wrong);
+  EXPECT_THAT(run(), HasSubstr("peer: impactor: Forces of window 0 holds 5 values, the surface has 4"));
+}
+
+TEST_F(HandPlayed, RefusesAVelocityThatIsNotTheMotion) {
+  auto half = kinematics(1);  // the last of two steps, instead of the mean of both
+  half.set_position(3, -2e-3);
+  half.set_velocity(3, -3.0);
+  impactor_.messages_->send(forces(0));
+  structure_.messages_->send(half);
+  EXPECT_THAT(run(), HasSubstr("peer: structure: Kinematics of window 1: coordinate 2 of node 1 moved by -0.002 m, but "
+                               "the velocity sent with it times the window makes -0.003 m"));
+}
+
+TEST_F(HandPlayed, TakesTheMeanVelocityOfTheMotion) {
+  auto mean = kinematics(1);
+  mean.set_position(3, -2e-3);
+  mean.set_velocity(3, -2.0);
+  impactor_.messages_->send(forces(0));
+  structure_.messages_->send(mean);
+  EXPECT_THAT(run(0.2), HasSubstr("peer: impactor: said nothing for"));
+}
+
+TEST_F(HandPlayed, NumbersThatAreNotFiniteEndTheRun) {
+  impactor_.messages_->send(forces(0, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_THAT(run(), HasSubstr("numerical: impactor: Forces of window 0: value 0 is nan"));
+}
+
+TEST_F(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
+  impactor_.messages_->send(forces(0));
+  impactor_.far_.reset();
+  EXPECT_THAT(run(), HasSubstr("peer: impactor: "));
+  EXPECT_EQ(witness_.forces_.size(), 1U);
+}
+
+// The structure fails and goes while Forces for it are on their way: the loss is noticed when they are sent.
+TEST_F(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
+  wire::Report report;
+  report.set_window(0);
+  structure_.messages_->send(report);
+  wire::Error error;
+  error.set_kind(wire::Error::NUMERICAL);
+  error.set_text("an element is inside out");
+  structure_.messages_->send(error);
+  structure_.far_.reset();
+  impactor_.messages_->send(forces(0));
+  EXPECT_EQ(run(), "numerical: structure: an element is inside out");
+  EXPECT_EQ(witness_.structure_.size(), 1U) << "its report of that window was lost";
+}
+
+TEST_F(HandPlayed, DamagedBytesArePeerErrors) {
+  const std::vector<std::byte> noise(40, std::byte{7});
+  impactor_.far_->send(noise);
+  EXPECT_THAT(run(), HasSubstr("peer: impactor: message 1: expected a frame"));
+}
+
+TEST_F(HandPlayed, ReportsOfAnotherWindowThanDueAreRefused) {
+  wire::Report report;
+  report.set_window(3);
+  impactor_.messages_->send(report);
+  EXPECT_THAT(run(), HasSubstr("expected Report of window 0, got Report of window 3"));
+}
+
+}  // namespace
+}  // namespace grainstep::orchestrator
