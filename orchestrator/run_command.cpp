@@ -27,11 +27,13 @@ void announce(const RunOptions& options, const Preparation& preparation, const r
               preparation.scene.title().empty() ? options.scene.scene.c_str() : preparation.scene.title().c_str());
   if (preparation.plan && preparation.impactor && preparation.structure) {
     const StepPlan& plan = *preparation.plan;
-    std::printf("%llu particles, %llu elements, %llu windows of %u and %u steps -> %s\n",
-                static_cast<unsigned long long>(preparation.impactor->particles),
-                static_cast<unsigned long long>(preparation.structure->elements),
-                static_cast<unsigned long long>(plan.windows), plan.impactor_steps, plan.structure_steps,
-                directory.path().c_str());
+    const bool foam = preparation.impactor->elements > 0;
+    std::printf(
+        "%llu %s, %llu elements, %llu windows of %u and %u steps -> %s\n",
+        static_cast<unsigned long long>(foam ? preparation.impactor->elements : preparation.impactor->particles),
+        foam ? "foam elements" : "particles", static_cast<unsigned long long>(preparation.structure->elements),
+        static_cast<unsigned long long>(plan.windows), plan.impactor_steps, plan.structure_steps,
+        directory.path().c_str());
   }
   std::fflush(stdout);
 }

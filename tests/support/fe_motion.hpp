@@ -32,6 +32,16 @@ void head_for(Body& body, double step, Target target) {
   });
 }
 
+/// Velocities that take a block within a step to `height` times its own in its material frame, turned by `angle`.
+inline void crush_and_turn(Body& body, double height, double angle, double step) {
+  for_each_node(body, [&](Nodes& nodes, std::size_t i) {
+    const double x = nodes.x0[i];
+    const double y = height * nodes.y0[i];
+    nodes.u[i] = (std::cos(angle) * x - std::sin(angle) * y - nodes.x[i]) / step;
+    nodes.v[i] = (std::sin(angle) * x + std::cos(angle) * y - nodes.y[i]) / step;
+  });
+}
+
 /// What keeps a body as it is told in its steps. The weight of the first kick is half a step: it starts at t = 0.
 class Stepper {
  public:

@@ -203,13 +203,7 @@ TEST_P(CoreBody, CrushingTurnsWithTheBody) {
     for (int n = 1; n <= steps; ++n) {
       const double angle = 2.0 * M_PI * turns * n / steps;
       const double next = 1.0 - 0.9 * n / steps;
-
-      test::for_each_node(body, [&](Nodes& nodes, std::size_t i) {
-        const double x = nodes.x0[i];
-        const double y = next * nodes.y0[i];
-        nodes.u[i] = (std::cos(angle) * x - std::sin(angle) * y - nodes.x[i]) / step;
-        nodes.v[i] = (std::sin(angle) * x + std::cos(angle) * y - nodes.y[i]) / step;
-      });
+      test::crush_and_turn(body, next, angle, step);
       body.drift(step);
       const SweepResult result = body.sweep(step);
       EXPECT_EQ(result.unconverged, 0);
