@@ -37,7 +37,10 @@ Body make_body(const Case& setting, const Kernels& kernels) {
   // Of a tenth of the steel's density and strength, with the viscosity of (3.10) for c/L = 0.33.
   const grainstep::fe::Core core{grainstep::fe::Elastic::from_young(20e9, 0.25, 800.0), 5e6, 1.9, 20e9, 6.3e3};
   const bool is_core = setting.flow == Flow::core;
-  return {grainstep::fe::make_mesh(structure), {is_core ? grainstep::fe::Material(core) : steel}, 1e-3, kernels};
+  return {grainstep::fe::make_mesh(structure),
+          {is_core ? grainstep::fe::Material(core) : steel},
+          grainstep::fe::PlaneStrain{1e-3},
+          kernels};
 }
 
 /// Bending about the middle of the thickness at a rate that varies along the span: all but a middle strip flows, at

@@ -40,8 +40,8 @@ std::size_t state_index(int components, int column, int triangle) {
 
 }  // namespace
 
-Body::Body(Mesh mesh, std::vector<Material> layers, double depth, const Kernels& kernels)
-    : mesh_(std::move(mesh)), layers_(std::move(layers)), measure_{depth}, kernels_(&kernels) {
+Body::Body(Mesh mesh, std::vector<Material> layers, const Measure& measure, const Kernels& kernels)
+    : mesh_(std::move(mesh)), layers_(std::move(layers)), measure_(measure), kernels_(&kernels) {
   resize(corners, mesh_.corner_stride() * (mesh_.rows.size() + 1));
   resize(centres, mesh_.centre_stride() * mesh_.rows.size());
   scratch_.assign(scratch_size(mesh_.columns), 0.0);
@@ -71,17 +71,18 @@ void Body::place_nodes() {
   centres.y = centres.y0;
 }
 
-/// A third of every triangle's mass to each of its nodes: a third of a quad's to its centre, a sixth to each corner.
+/// The integral of density x shape function: in plane strain a third of a quad's mass to its centre, a sixth to each
+/// corner.
 void Body::share_mass() {
   for (int row = 0; row < mesh_.row_count(); ++row) {
     const double density = elastic_part(material(row)).density;
     for (int column = 0; column < mesh_.columns; ++column) {
       const double x = centres.x0[row * mesh_.centre_stride() + column];
-      const double quad = density * mesh_.rows[row].quad_area * measure_.thickness(x);
-      centres.mass[row * mesh_.centre_stride() + column] = quad / 3.0;
+      const double areal = density * mesh_.rows[row].quad_area;
+      centres.mass[row * mesh_.centre_stride() + column] = areal * thickness(measure_, x) / 3.0;
       for (const Corner c :
            {Corner{row, column}, Corner{row, column + 1}, Corner{row + 1, column}, Corner{row + 1, column + 1}}) {
-        corners.mass[mesh_.corner(c)] += quad / 6.0;
+        corners.mass[mesh_.corner(c)] += areal * corner_thickness(measure_, x, mesh_.corner_x(c.column)) / 6.0;
       }
     }
   }
@@ -172,6 +173,14 @@ Vec2 Body::hold_supports() {
   return impulse;
 }
 
+double Body::radial_force() const {
+  double sum = 0.0;
+  for (const Nodes* nodes : {&corners, &centres}) {
+    for (std::size_t i = 0; i < nodes->fx.size(); ++i) sum += nodes->mass[i] > 0.0 ? nodes->fx[i] : 0.0;
+  }
+  return sum;
+}
+
 void Body::drift(double step) {
   for (Nodes* nodes : {&corners, &centres}) {
     kernels_->drift(nodes->x.data(), nodes->u.data(), step, nodes->x.size());
@@ -182,7 +191,7 @@ void Body::drift(double step) {
 double Body::stable_step() const {
   double bound = 0.0;  // of omega^2
   for (int row = 0; row < mesh_.row_count(); ++row) {
-    bound = kernels_->largest_frequency(row_view(row), elastic_part(material(row)), quad_mass(row), bound);
+    bound = kernels_->largest_frequency(row_view(row), elastic_part(material(row)), quad_mass(row), measure_, bound);
   }
   return 2.0 / std::sqrt(bound);
 }
@@ -193,10 +202,14 @@ double Body::stable_step(int row, int column) const {
     *nodes = {nodes->x + column, nodes->y + column, nodes->u + column, nodes->v + column};
   }
   view.quads = 1;
-  return 2.0 / std::sqrt(kernels_->largest_frequency(view, elastic_part(material(row)), quad_mass(row), 0.0));
+  QuadMass mass = quad_mass(row);
+  mass.left += column * mass.width;
+  return 2.0 / std::sqrt(kernels_->largest_frequency(view, elastic_part(material(row)), mass, measure_, 0.0));
 }
 
-double Body::quad_mass(int row) const { return elastic_part(material(row)).density * mesh_.rows[row].quad_area; }
+QuadMass Body::quad_mass(int row) const {
+  return {elastic_part(material(row)).density * mesh_.rows[row].quad_area, mesh_.left, mesh_.width};
+}
 
 double Body::mass() const {
   double sum = 0.0;

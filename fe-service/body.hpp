@@ -28,8 +28,9 @@ struct SweepResult {
 
 class Body {
  public:
-  /// `layers` by layer index of the mesh; depth b in m.
-  Body(Mesh mesh, std::vector<Material> layers, double depth, const Kernels& kernels = *available_kernels().front());
+  /// `layers` by layer index of the mesh.
+  Body(Mesh mesh, std::vector<Material> layers, const Measure& measure,
+       const Kernels& kernels = *available_kernels().front());
 
   /// Stress at the end of a step that lasted `step`, and the internal forces there.
   SweepResult sweep(double step);
@@ -37,9 +38,13 @@ class Body {
   /// Adds weight/mass x internal force to all velocities; weight in s.
   void kick(double weight);
 
-  /// Stops the supported degrees of freedom: all at x1 = L (and -L), u1 on the plane of symmetry. Returns the impulse,
-  /// N s, that the supports gave for it.
+  /// Stops the supported degrees of freedom: all at x1 = L (and -L), u1 on the plane or axis of symmetry. Returns the
+  /// impulse, N s, that the supports gave for it.
   Vec2 hold_supports();
+
+  /// Sum of the internal forces along x1, N. Zero in plane strain; in a solid of revolution what its hoops pull inwards
+  /// with: each slice feels it from its neighbours, like a support.
+  [[nodiscard]] double radial_force() const;
 
   void drift(double step);
 
@@ -50,7 +55,7 @@ class Body {
   [[nodiscard]] double stable_step(int row, int column) const;
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
-  [[nodiscard]] const PlaneStrain& measure() const { return measure_; }
+  [[nodiscard]] const Measure& measure() const { return measure_; }
   [[nodiscard]] const Material& material(int row) const { return layers_[mesh_.rows[row].layer]; }
   [[nodiscard]] double mass() const;
   [[nodiscard]] std::size_t memory_bytes() const;
@@ -72,8 +77,7 @@ class Body {
 
  private:
   [[nodiscard]] RowSweep row_view(int row) const;
-  /// For a unit thickness, kg/m.
-  [[nodiscard]] double quad_mass(int row) const;
+  [[nodiscard]] QuadMass quad_mass(int row) const;
   void place_nodes();
   void share_mass();
   void create_state();
@@ -81,7 +85,7 @@ class Body {
 
   Mesh mesh_;
   std::vector<Material> layers_;
-  PlaneStrain measure_;
+  Measure measure_;
   const Kernels* kernels_;
   std::vector<Array> state_;  ///< by row of elements
   Array scratch_;

@@ -13,9 +13,9 @@
 
 namespace grainstep::fe {
 
-Deformable::Deformable(const scene::Structure& structure, const scene::Guards& guards, double depth)
+Deformable::Deformable(const scene::Structure& structure, const scene::Guards& guards, const Measure& measure)
     : guards_(guards),
-      body_(make_mesh(structure), make_layers(structure), depth),
+      body_(make_mesh(structure), make_layers(structure), measure),
       undeformed_step_(body_.stable_step()),
       stable_step_(undeformed_step_) {
   set_initial_velocity(structure, body_);
@@ -28,7 +28,7 @@ void Deformable::fill_ready(wire::Ready& ready) const {
   ready.set_preferred_step(kStepSafety * stable_step_);
   ready.set_size(body_.mesh().triangles());
   ready.set_mass(body_.mass());
-  ready.set_contact_mass(body_.corners.mass[surface_[surface_.size() / 2]]);
+  ready.set_contact_mass(body_.corners.mass[body_.mesh().corner(body_.mesh().middle_of_face())]);
   ready.set_memory(body_.memory_bytes());
   wire::Surface& surface = *ready.mutable_surface();
   for (std::size_t k = 0; k < surface_.size(); ++k) {
@@ -99,6 +99,7 @@ Deformable::Received Deformable::kick(const wire::Forces& forces, double interna
   }
   body_.kick(internal_weight);
   gained.supports = body_.hold_supports();
+  if (is_of_revolution(body_.measure())) gained.supports.x += internal_weight * body_.radial_force();
   for (std::size_t k = 0; k < surface_.size(); ++k) work_after += work(k);
   gained.work = 0.5 * (gained.work_before + work_after);
   return gained;

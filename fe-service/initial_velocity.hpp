@@ -11,7 +11,8 @@ namespace grainstep::fe {
 /// (clamps, the plane of symmetry) stays at rest: the share of its nodes is not given at all.
 void set_initial_velocity(const scene::Structure& structure, Body& body);
 
-/// m/s: momentum of all fields over mass, of a structure that moves as a whole.
-[[nodiscard]] Vec2 mean_initial_velocity(const scene::Structure& structure);
+/// m/s: momentum of all fields over mass, of a structure that moves as a whole. (Along x1 of a solid of revolution:
+/// the mean of the velocity along r.)
+[[nodiscard]] Vec2 mean_initial_velocity(const scene::Structure& structure, const Measure& measure);
 
 }  // namespace grainstep::fe

@@ -1,5 +1,5 @@
-/// @file The mesh of a layered beam: nx x ny quads, each four crossed triangles, x2 = 0 at the loaded face and the
-/// structure below it.
+/// @file The mesh of a layered beam or circular plate: nx x ny quads, each four crossed triangles, x2 = 0 at the loaded
+/// face and the structure below it. Of a plate it is a half section: x1 is the radius, column 0 the axis.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct Mesh {
   double length;                 ///< m
   double width;                  ///< of a quad, m
   double element_size;           ///< asked for, m
-  bool symmetric;                ///< column 0 is the plane of symmetry; else it is clamped
+  bool symmetric;                ///< column 0 is the plane or axis of symmetry; else it is clamped
   int columns;                   ///< quads along x1, nx
   int mid_column;                ///< corner column at x1 = 0
   std::vector<ElementRow> rows;  ///< from the loaded face to the back face
@@ -42,6 +42,7 @@ struct Mesh {
   }
   [[nodiscard]] std::size_t batches() const { return centre_stride() / kBatchQuads; }
   [[nodiscard]] std::size_t corner(Corner c) const { return c.row * corner_stride() + c.column; }
+  [[nodiscard]] Corner middle_of_face() const { return {0, (columns + 1) / 2}; }
   [[nodiscard]] double corner_x(int column) const { return left + length * column / columns; }
 
   /// The touchable surface as a chain of corners, left to right, the structure on its right-hand side: (left end face,

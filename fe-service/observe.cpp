@@ -143,7 +143,7 @@ double elastic_energy(const Body& body) {
     const auto nodes = body.triangle(row, column, triangle);
     const double centroid = (nodes.a.x + nodes.b.x + nodes.centre.x) / 3.0;
     sum += elastic_part(body.material(row)).stored_energy(body.stress(row, column, triangle)) * nodes.area() *
-           body.measure().thickness(centroid);
+           thickness(body.measure(), centroid);
   });
   return sum;
 }

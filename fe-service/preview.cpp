@@ -5,6 +5,7 @@
 #include "fe-service/deformable.hpp"
 #include "fe-service/foam/model.hpp"
 #include "fe-service/layers.hpp"
+#include "fe-service/solid.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::fe {
@@ -30,29 +31,59 @@ double seconds_per_element_step(const Mesh& mesh, const std::vector<Material>& l
   return sum / static_cast<double>(mesh.rows.size());
 }
 
-void preview_beam(const scene::Structure& structure, double depth, StructurePreview& found) {
+/// One row of quads per layer: rows of a layer are alike.
+Mesh one_row_per_layer(const Mesh& mesh) {
+  Mesh thin = mesh;
+  thin.rows.clear();
+  thin.level = {0.0};
+  for (const ElementRow& row : mesh.rows) {
+    if (!thin.rows.empty() && thin.rows.back().layer == row.layer) continue;
+    thin.rows.push_back(row);
+    thin.level.push_back(thin.level.back() - row.height);
+  }
+  return thin;
+}
+
+void preview_plate(const Mesh& mesh, const std::vector<Material>& layers, StructurePreview& found) {
+  const Body body(one_row_per_layer(mesh), layers, Axisymmetric{});
+  found.stable_step = body.stable_step();
+  found.contact_mass = body.corners.mass[body.mesh().corner(mesh.middle_of_face())];
+  found.memory_bytes = body.memory_bytes() / body.mesh().rows.size() * mesh.rows.size();
+}
+
+void preview_beam(const Mesh& mesh, const std::vector<Material>& layers, const Measure& measure,
+                  StructurePreview& found) {
+  // All columns are alike: one is enough for the step, and tells what each adds to the memory.
+  Mesh column = mesh;
+  column.columns = 1;
+  column.length = mesh.width;
+  const Body body(column, layers, measure);
+  found.stable_step = body.stable_step();
+  // The only column's two surface nodes have one triangle's neighbourhood each; inside the surface nodes have both.
+  for (const Corner c : body.mesh().surface()) found.contact_mass += body.corners.mass[body.mesh().corner(c)];
+  found.memory_bytes = body.memory_bytes() * mesh.batches();
+}
+
+void preview_deformable(const scene::Structure& structure, const Measure& measure, StructurePreview& found) {
   const Mesh mesh = make_mesh(structure);
   const std::vector<Material> layers = make_layers(structure);
   found.elements = mesh.triangles();
   found.nodes = mesh.nodes();
   found.element_size = mesh.width;
-  // All columns are alike: one is enough for the step, and tells what each adds to the memory.
-  Mesh column = mesh;
-  column.columns = 1;
-  column.length = mesh.width;
-  const Body body(column, layers, depth);
-  found.stable_step = body.stable_step();
+  if (is_of_revolution(measure)) {
+    preview_plate(mesh, layers, found);
+  } else {
+    preview_beam(mesh, layers, measure, found);
+  }
   found.preferred_step = kStepSafety * found.stable_step;
-  // The only column's two surface nodes have one triangle's neighbourhood each; inside the surface nodes have both.
-  for (const Corner c : body.mesh().surface()) found.contact_mass += body.corners.mass[body.mesh().corner(c)];
-  found.memory_bytes = body.memory_bytes() * mesh.batches();
   found.seconds_per_element_step = seconds_per_element_step(mesh, layers);
 }
 
 }  // namespace
 
 StructurePreview preview(const scene::Structure& structure, scene::Symmetry symmetry, double depth) {
-  if (symmetry != scene::SYMMETRY_PLANE_STRAIN) throw InputError("symmetry: grainstep-fe knows `plane_strain` only");
+  const Measure measure = make_measure(symmetry, depth);
+  check_measure(structure, measure);
   if (structure.layers().empty()) throw InputError("structure.layers: none given; at least one is needed");
   StructurePreview found;
   found.yield_strength = structure.layers(0).yield_strength();
@@ -61,7 +92,7 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
   if (structure.type() == scene::Structure::TYPE_RIGID) {
     found.stable_step = found.preferred_step = participant::no_step_limit;
   } else {
-    preview_beam(structure, depth, found);
+    preview_deformable(structure, measure, found);
   }
   return found;
 }
@@ -76,7 +107,7 @@ FoamPreview preview_foam(const scene::Impactor& impactor, scene::Symmetry symmet
   quad.length = quad.width;
   quad.rows.resize(1);
   quad.level.resize(2);
-  const Body body(quad, {model.foam}, depth);
+  const Body body(quad, {model.foam}, PlaneStrain{depth});
   FoamPreview found;
   found.elements = model.mesh.triangles();
   found.stable_step = stable_step_in_touch(model, body.stable_step());

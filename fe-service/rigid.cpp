@@ -21,7 +21,7 @@ double areal_mass_of(const scene::Structure& structure) {
 
 }  // namespace
 
-Rigid::Rigid(const scene::Structure& structure, double depth)
+Rigid::Rigid(const scene::Structure& structure, const Measure& measure)
     : free_(structure.motion() == scene::Structure::MOTION_FREE) {
   if (structure.layers().empty())
     throw InputError("structure.layers: none given; a rigid target takes its depth from them");
@@ -34,8 +34,8 @@ Rigid::Rigid(const scene::Structure& structure, double depth)
     outline_ = {{0.0, 0.0}, {half, 0.0}, {half, -thickness}};
   }
   if (!free_) return;
-  mass_ = areal_mass_of(structure) * half * (full ? 2.0 : 1.0) * depth;
-  velocity_ = mean_initial_velocity(structure).y;
+  mass_ = areal_mass_of(structure) * half * (full ? 2.0 : 1.0) * fe::thickness(measure, full ? 0.0 : 0.5 * half);
+  velocity_ = mean_initial_velocity(structure, measure).y;
 }
 
 void Rigid::fill_nodes(Doubles& position, Doubles& velocity, double speed) const {

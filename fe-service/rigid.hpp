@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "fe-service/measure.hpp"
 #include "fe-service/triangle.hpp"
 #include "fe-service/windows.hpp"
 
@@ -14,8 +15,7 @@ namespace grainstep::fe {
 
 class Rigid final : public WindowedStructure {
  public:
-  /// `depth` b in m.
-  Rigid(const scene::Structure& structure, double depth);
+  Rigid(const scene::Structure& structure, const Measure& measure);
 
   void fill_ready(wire::Ready& ready) const override;
   void start(const wire::Start& start) override;

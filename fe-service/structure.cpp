@@ -14,7 +14,7 @@ wire::Hello Structure::describe() const {
   hello.set_backend(std::string("grainstep-fe (") + available_kernels().front()->name + ")");
   hello.set_version(GRAINSTEP_VERSION);
   hello.set_dimension(2);
-  for (const char* capability : {"beam", "rigid", "plane_strain", "dh36", "elastic", "core"})
+  for (const char* capability : {"beam", "plate", "rigid", "plane_strain", "axisymmetric", "dh36", "elastic", "core"})
     hello.add_capabilities(capability);
   hello.set_process(static_cast<std::uint64_t>(getpid()));
   return hello;

@@ -7,24 +7,25 @@
 #include "base/error.hpp"
 #include "fe-service/deformable.hpp"
 #include "fe-service/rigid.hpp"
+#include "fe-service/solid.hpp"
 
 namespace grainstep::fe {
 
 std::unique_ptr<WindowedStructure> make_structure(const wire::Setup& setup) {
   if (!setup.has_structure()) throw InputError("setup: grainstep-fe is a structure, but was sent an impactor's part");
-  if (setup.symmetry() != scene::SYMMETRY_PLANE_STRAIN) {
-    throw InputError(fmt::format("symmetry: grainstep-fe knows `plane_strain`, found value number {}",
-                                 static_cast<int>(setup.symmetry())));
-  }
+  const Measure measure = make_measure(setup.symmetry(), setup.depth());
   const scene::Structure& structure = setup.structure().structure();
+  check_measure(structure, measure);
   switch (structure.type()) {
     case scene::Structure::TYPE_BEAM:
-      return std::make_unique<Deformable>(structure, setup.structure().guards(), setup.depth());
+    case scene::Structure::TYPE_PLATE:
+      return std::make_unique<Deformable>(structure, setup.structure().guards(), measure);
     case scene::Structure::TYPE_RIGID:
-      return std::make_unique<Rigid>(structure, setup.depth());
+      return std::make_unique<Rigid>(structure, measure);
     default:
-      throw InputError(fmt::format("structure.type: grainstep-fe knows `beam` and `rigid`, found value number {}",
-                                   static_cast<int>(structure.type())));
+      throw InputError(
+          fmt::format("structure.type: grainstep-fe knows `beam`, `plate` and `rigid`, found value number {}",
+                      static_cast<int>(structure.type())));
   }
 }
 

@@ -55,7 +55,7 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   out.yaml = scene::to_yaml(out.scene);
   out.groups = scene::groups(out.scene);
   const scene::Scene& scene = out.scene;
-  const bool mirror = scene.structure().extent() == scene::Structure::EXTENT_HALF;
+  const bool mirror = scene::has_mirror(scene);
   if (!is_external(wire::STRUCTURE, scene, options)) {
     out.structure = fe::preview(scene.structure(), scene.symmetry(), scene.depth());
   }

@@ -20,6 +20,12 @@ std::span<const double> span_of(const google::protobuf::RepeatedField<double>& v
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
+ledger::SurfaceLoad surface_load(const Recorder::Context& context) {
+  return context.scene.symmetry() == scene::SYMMETRY_AXISYMMETRIC
+             ? ledger::SurfaceLoad::of_revolution(context.surface)
+             : ledger::SurfaceLoad(context.surface, context.scene.depth());
+}
+
 }  // namespace
 
 Recorder::Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
@@ -33,9 +39,8 @@ Recorder::Recorder(const Context& context, const results::RunDirectory& director
       masses_(context.masses),
       tick_(std::move(tick)),
       sums_(2),
-      load_(ledger::SurfaceLoad(context.surface, context.scene.depth()),
-            {.window = context.plan.window, .steps = context.plan.impactor_steps},
-            context.groups.loaded_width * context.scene.depth()),
+      load_(surface_load(context), {.window = context.plan.window, .steps = context.plan.impactor_steps},
+            context.groups.loaded_area),
       flushed_(transport::Clock::now()) {
   load_.watch(groups_.arrival + early_from * groups_.slug_time);
   load_.watch(groups_.arrival + early_to * groups_.slug_time);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -64,7 +65,7 @@ wire::Setup Session::setup() const {
   out.set_scene_hash(task_.hash);
   out.set_symmetry(task_.scene.symmetry());
   out.set_depth(task_.scene.depth());
-  out.set_mirror(task_.scene.structure().extent() == scene::Structure::EXTENT_HALF);
+  out.set_mirror(scene::has_mirror(task_.scene));
   return out;
 }
 

@@ -1,14 +1,36 @@
 #include "ledger/surface_load.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/error.hpp"
 
 namespace grainstep::ledger {
 
-SurfaceLoad::SurfaceLoad(const wire::Surface& surface, double depth)
-    : depth_(depth), nodes_(static_cast<std::size_t>(surface.position_size()) / 2) {
+SurfaceLoad::SurfaceLoad(const wire::Surface& surface, double depth) : SurfaceLoad(surface, Shape::extruded, depth) {}
+
+SurfaceLoad SurfaceLoad::of_revolution(const wire::Surface& surface) { return {surface, Shape::revolved, 0.0}; }
+
+/// Area and weights. The integral of a shape function over a ring: 2 pi length (2 r + r of the other node)/6.
+void SurfaceLoad::measure(Segment& segment, const double (&radius)[2], Shape shape, double depth) {
+  if (shape == Shape::extruded) {
+    segment.area = segment.length * depth;
+    segment.weight[0] = segment.weight[1] = segment.length;
+    return;
+  }
+  segment.area = segment.length * std::numbers::pi * (radius[0] + radius[1]);
+  if (!(segment.area > 0.0)) {
+    throw InputError("surface: the segment between nodes " + std::to_string(segment.node[0]) + " and " +
+                     std::to_string(segment.node[1]) + " of a surface of revolution has no area");
+  }
+  for (int k = 0; k < 2; ++k) {
+    segment.weight[k] = segment.length * std::numbers::pi / 3.0 * (2.0 * radius[k] + radius[1 - k]);
+  }
+}
+
+SurfaceLoad::SurfaceLoad(const wire::Surface& surface, Shape shape, double depth)
+    : nodes_(static_cast<std::size_t>(surface.position_size()) / 2) {
   std::vector<double> tributary(2 * nodes_, 0.0);
   for (int s = 0; s + 1 < surface.segment_size(); s += 2) {
     Segment segment{};
@@ -29,8 +51,9 @@ SurfaceLoad::SurfaceLoad(const wire::Surface& surface, double depth)
     segment.normal[0] = -tangent[1] / segment.length;  // the tangent turned by +90 degrees
     segment.normal[1] = tangent[0] / segment.length;
     segment.middle = 0.5 * (at(0, 0) + at(1, 0));
-    for (const std::size_t node : segment.node) {
-      for (int axis = 0; axis < 2; ++axis) tributary[2 * node + axis] += segment.seen_along(axis);
+    measure(segment, {at(0, 0), at(1, 0)}, shape, depth);
+    for (int k = 0; k < 2; ++k) {
+      for (int axis = 0; axis < 2; ++axis) tributary[2 * segment.node[k] + axis] += segment.seen_along(axis, k);
     }
     segments_.push_back(segment);
   }
@@ -38,7 +61,7 @@ SurfaceLoad::SurfaceLoad(const wire::Surface& surface, double depth)
     for (int k = 0; k < 2; ++k) {
       for (int axis = 0; axis < 2; ++axis) {
         const double all = tributary[2 * segment.node[k] + axis];
-        segment.share[k][axis] = all > 0.0 ? segment.seen_along(axis) / all : 0.0;
+        segment.share[k][axis] = all > 0.0 ? segment.seen_along(axis, k) / all : 0.0;
       }
     }
   }
@@ -73,7 +96,7 @@ std::vector<double> SurfaceLoad::impulse_per_area(std::span<const double> impuls
   std::vector<double> out;
   out.reserve(segments_.size());
   for (const Segment& segment : segments_) {
-    out.push_back(pressed(segment, impulse) / (segment.length * depth_));
+    out.push_back(pressed(segment, impulse) / segment.area);
   }
   return out;
 }

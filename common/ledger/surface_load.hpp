@@ -10,13 +10,18 @@
 
 namespace grainstep::ledger {
 
-/// The undeformed surface in two dimensions. Each component of an impulse at a node is shared among the segments that
-/// meet there in proportion to their length as seen along it, so that the segments' sum is the nodes' sum, and what
-/// presses on a face is not ascribed to the face around its corner.
+/// The undeformed surface in two dimensions: segments, or rings of a surface of revolution. Each component of an
+/// impulse at a node is shared among the segments that meet there in proportion to what a uniform pressure on them
+/// would give to the node along it (its shape function over their area, as seen along the component), so that the
+/// segments' sum is the nodes' sum, a uniform pressure is found again, and what presses on a face is not ascribed to
+/// the face around its corner.
 class SurfaceLoad {
  public:
   /// `depth` b in m. Throws InputError where topology and positions do not fit or a segment has no length.
   SurfaceLoad(const wire::Surface& surface, double depth);
+
+  /// Of revolution about x1 = 0, impulses on the full rings. Throws as above, and where a segment lies on the axis.
+  static SurfaceLoad of_revolution(const wire::Surface& surface);
 
   [[nodiscard]] std::size_t nodes() const { return nodes_; }
   [[nodiscard]] std::size_t segments() const { return segments_.size(); }
@@ -37,11 +42,15 @@ class SurfaceLoad {
     double normal[2];    // outward
     double middle;
     double length;
-    [[nodiscard]] double seen_along(int axis) const { return length * std::abs(normal[axis]); }
+    double area;       // m^2
+    double weight[2];  // in proportion to the integral of each node's shape function over the area
+    [[nodiscard]] double seen_along(int axis, int k) const { return weight[k] * std::abs(normal[axis]); }
   };
+  enum class Shape { extruded, revolved };
+  SurfaceLoad(const wire::Surface& surface, Shape shape, double depth);
+  static void measure(Segment& segment, const double (&radius)[2], Shape shape, double depth);
   [[nodiscard]] static double pressed(const Segment& segment, std::span<const double> impulse);
 
-  double depth_;
   std::size_t nodes_;
   std::vector<Segment> segments_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/assert.hpp"
 #include "load/pressure_history.hpp"
@@ -50,6 +51,15 @@ Span common_part(const Span& whole, const Range& range) {
   return {from, std::max(from, std::min(whole.to, range.to()))};
 }
 
+double area(const Scene& scene, const Span& part) {
+  const bool ring = scene.symmetry() == SYMMETRY_AXISYMMETRIC;
+  return part.length() * (ring ? 2.0 * std::numbers::pi * part.middle() : scene.depth());
+}
+
+bool has_mirror(const Scene& scene) {
+  return scene.symmetry() != SYMMETRY_AXISYMMETRIC && scene.structure().extent() == Structure::EXTENT_HALF;
+}
+
 namespace {
 
 void add_slug(const Scene& scene, Groups& g) {
@@ -65,12 +75,15 @@ void add_slug(const Scene& scene, Groups& g) {
   g.loading_time_ratio = loading_time_ratio(g.slug_time, g.reference_time);
   g.slug_pressure = rho_bar * rho_s * slug.speed() * slug.speed();
   g.loaded_width = (scene.structure().extent() == Structure::EXTENT_HALF ? 1.0 : 2.0) * slug.half_width();
+  g.loaded_area = area(scene, {0.0, g.loaded_width});
 }
 
 void add_pressure(const Scene& scene, Groups& g) {
   const auto& pressure = scene.impactor().pressure();
   const Span face = loaded_face(scene.structure());
-  g.loaded_width = (pressure.has_patch() ? common_part(face, pressure.patch()) : face).length();
+  const Span loaded = pressure.has_patch() ? common_part(face, pressure.patch()) : face;
+  g.loaded_width = loaded.length();
+  g.loaded_area = area(scene, loaded);
   g.width_ratio = g.loaded_width / face.length();
   const load::Moments moments = load::moments(pressure);
   if (!std::isfinite(moments.impulse) || !(moments.impulse > 0.0)) return;
@@ -87,6 +100,7 @@ Groups groups(const Scene& scene) {
   g.areal_mass = areal_mass(scene.structure());
   g.reference_time = reference_time(scene.structure().half_span(), face.density(), face.yield_strength());
   g.loaded_width = loaded_face(scene.structure()).length();
+  g.loaded_area = area(scene, loaded_face(scene.structure()));
   if (has_slug(scene)) add_slug(scene, g);
   if (scene.impactor().type() == Impactor::TYPE_PRESSURE) add_pressure(scene, g);
   g.impulse_number = impulse_number(g.areal_momentum, g.areal_mass, face.yield_strength(), face.density());

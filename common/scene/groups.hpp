@@ -6,7 +6,8 @@
 /// summary.json, never 0.
 ///
 /// A layered structure has one areal mass, the sum over its layers; rho_m and sigma_Y of the groups are those of its
-/// first (loaded) layer, which is the paper's reading for both the monolithic beam and the sandwich (face sheets).
+/// first (loaded) layer, which is the paper's reading for both the monolithic beam and the sandwich (face sheets). Of
+/// circular plates the radius R takes the place of the half span L.
 #pragma once
 
 #include <limits>
@@ -53,6 +54,7 @@ struct Groups {
   double arrival = 0;                  ///< stand_off/v0, s: first contact
   double slug_pressure = absent;       ///< rho_bar rho_s v0^2, Pa: what contact pressure is measured in
   double loaded_width = 0;             ///< m, along x1, of what is modelled: 2a of (4.4), or a of a half model
+  double loaded_area = 0;              ///< m^2, of what is modelled: the width times b, or the disc or ring of it
   double end = 0;                      ///< end of the run, s
 };
 
@@ -63,11 +65,18 @@ struct Groups {
 struct Span {
   double from = 0.0, to = 0.0;
   [[nodiscard]] double length() const { return to - from; }
+  [[nodiscard]] double middle() const { return 0.5 * (from + to); }
 };
 [[nodiscard]] Span loaded_face(const Structure& structure);
 
 /// The part of `whole` that lies in `range`; of no length where they do not meet.
 [[nodiscard]] Span common_part(const Span& whole, const Range& range);
+
+/// Of a part of the undeformed face, m^2: length times depth, or the ring between its ends.
+[[nodiscard]] double area(const Scene& scene, const Span& part);
+
+/// Whether particles meet a mirror plane at x1 = 0: a half model in plane strain. (A solid of revolution has none.)
+[[nodiscard]] bool has_mirror(const Scene& scene);
 
 /// @pre a checked scene (load_scene): it has a layer, and lengths and densities are positive.
 [[nodiscard]] Groups groups(const Scene& scene);

@@ -135,8 +135,26 @@ void velocities_apply(const Structure& structure, Findings& findings) {
 }
 
 void motion_is_read(const Structure& structure, Findings& findings) {
-  if (structure.motion() != Structure::MOTION_FREE || structure.type() != Structure::TYPE_BEAM) return;
-  findings.push_back({Severity::error, "structure.motion", "a beam is clamped; only the type rigid can be free"});
+  const bool clamped = structure.type() == Structure::TYPE_BEAM || structure.type() == Structure::TYPE_PLATE;
+  if (structure.motion() != Structure::MOTION_FREE || !clamped) return;
+  const std::string what = structure.type() == Structure::TYPE_BEAM ? "a beam" : "a plate";
+  findings.push_back({Severity::error, "structure.motion", what + " is clamped; only the type rigid can be free"});
+}
+
+void symmetry_fits(const Scene& scene, Findings& findings) {
+  const bool ring = scene.symmetry() == SYMMETRY_AXISYMMETRIC;
+  const Structure& structure = scene.structure();
+  if (ring && structure.type() == Structure::TYPE_BEAM) {
+    findings.push_back({Severity::error, "structure.type",
+                        "a beam is not a solid of revolution; with symmetry: axisymmetric take plate or rigid"});
+  }
+  if (!ring && structure.type() == Structure::TYPE_PLATE) {
+    findings.push_back({Severity::error, "symmetry", "a circular plate needs axisymmetric"});
+  }
+  if (ring && structure.extent() == Structure::EXTENT_FULL) {
+    findings.push_back({Severity::error, "structure.extent",
+                        "half is the whole of a solid of revolution (0 <= r <= R); full is for plane strain"});
+  }
 }
 
 void steps_meet(const Steps& steps, Findings& findings) {
@@ -215,6 +233,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
   covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},
                 "impactor.pressure.patch", findings);
   motion_is_read(scene.structure(), findings);
+  symmetry_fits(scene, findings);
   velocities_apply(scene.structure(), findings);
   for (int i = 0; i < scene.structure().layers_size(); ++i) core_is_described(scene, i, findings);
   steps_meet(scene.steps(), findings);

@@ -44,7 +44,7 @@ double height_of_first_touch(const FoamModel& model, const Body& body, const sur
 }  // namespace
 
 Body make_block(const FoamModel& model, const surface::Polyline& surface) {
-  Body body(model.mesh, {model.foam}, model.depth);
+  Body body(model.mesh, {model.foam}, PlaneStrain{model.depth});
   const double rise = height_of_first_touch(model, body, surface) + model.stand_off;
   for (Nodes* nodes : {&body.corners, &body.centres}) set_motion(model, rise, *nodes);
   return body;

@@ -1,4 +1,6 @@
-/// @file From the elastic predictor of a batch to its stress, per material. `state` holds the predictor.
+/// @file From the elastic predictor of a batch to its stress, per material. `state` holds the predictor. All of it is
+/// inlined into every copy of the element loop: a function that copies share is fused differently by the compiler, and
+/// another measure would change the last bits of plane strain.
 #pragma once
 
 #include "fe-service/kernel/batch.hpp"
@@ -73,8 +75,8 @@ GS_ALWAYS_INLINE double return_step_lane(const Dh36& law, const double* plastic_
 }
 
 /// Solves the local problem of all lanes that yield. False: some lane did not converge.
-inline bool solve_return(const Dh36& law, const double* plastic_strain, const double* strength, const double* last,
-                         double log_rate_scale, Return& local) {
+GS_ALWAYS_INLINE bool solve_return(const Dh36& law, const double* plastic_strain, const double* strength,
+                                   const double* last, double log_rate_scale, Return& local) {
   double first = 0.0;
 #pragma omp simd reduction(max : first)
   for (int i = 0; i < kBatchTriangles; ++i) {
@@ -125,8 +127,8 @@ inline void correct(const Elastic&, double*, const Flow&, double, int, double*, 
 /// Radial return; adds the plastic work of the first `lanes` quads to `work`. That is the sum of (old + new stress)/2 :
 /// plastic strain increment x volume at the middle of the step: the part of the trapezoidal internal work that the
 /// stored energy does not account for.
-inline void correct(const Dh36& law, double* state, const Flow& flow, double log_rate_scale, int lanes, double* work,
-                    RowSweep& row) {
+GS_ALWAYS_INLINE void correct(const Dh36& law, double* state, const Flow& flow, double log_rate_scale, int lanes,
+                              double* work, RowSweep& row) {
   const double* strength = state + kStaticStrength * kBatchTriangles;
   alignas(kAlignment) Return local;
   double overshoot = 0.0;

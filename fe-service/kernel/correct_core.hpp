@@ -74,7 +74,7 @@ GS_ALWAYS_INLINE double sweep_core_lane(const Core& law, const double* compactio
   return change - kCoreTolerance * core_scale(law, trial);
 }
 
-inline bool solve_core(const Core& law, const double* compaction, double drag, CoreReturn& local) {
+GS_ALWAYS_INLINE bool solve_core(const Core& law, const double* compaction, double drag, CoreReturn& local) {
   for (int sweep = 0; sweep < kMaxCoreSweeps; ++sweep) {
     double worst = 0.0;
 #pragma omp simd reduction(max : worst)
@@ -103,8 +103,8 @@ GS_ALWAYS_INLINE double core_lane(const Core& law, const CoreReturn& local, cons
 }
 
 /// As for DH36; `drag` = eta/dt.
-inline void correct(const Core& law, double* state, const CoreFlow& flow, double drag, int lanes, double* work,
-                    RowSweep& row) {
+GS_ALWAYS_INLINE void correct(const Core& law, double* state, const CoreFlow& flow, double drag, int lanes,
+                              double* work, RowSweep& row) {
   alignas(kAlignment) CoreReturn local;
   double overshoot = 0.0;
 #pragma omp simd reduction(max : overshoot)

@@ -42,7 +42,7 @@ GS_ALWAYS_INLINE double lock_lane(const Foam& law, int i, FoamReturn& local) {
   return found.miss - kFoamTolerance;
 }
 
-inline bool solve_foam(const Foam& law, double drag, FoamReturn& local) {
+GS_ALWAYS_INLINE bool solve_foam(const Foam& law, double drag, FoamReturn& local) {
   double worst = 1.0;
   for (int iteration = 0; iteration < kMaxFoamIterations && worst > 0.0; ++iteration) {
     worst = 0.0;
@@ -88,8 +88,8 @@ GS_ALWAYS_INLINE double foam_lane(const Foam& law, const FoamReturn& local, cons
 }
 
 /// As for DH36; `drag` = eta/dt.
-inline void correct(const Foam& law, double* state, const CoreFlow& flow, double drag, int lanes, double* work,
-                    RowSweep& row) {
+GS_ALWAYS_INLINE void correct(const Foam& law, double* state, const CoreFlow& flow, double drag, int lanes,
+                              double* work, RowSweep& row) {
   alignas(kAlignment) FoamReturn local;
   double overshoot = 0.0;
 #pragma omp simd reduction(max : overshoot)

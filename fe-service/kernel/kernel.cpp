@@ -8,14 +8,21 @@ namespace grainstep::fe {
 
 namespace {
 
-template <class Law>
-void sweep(RowSweep& row, const Law& law, const PlaneStrain& measure) {
+template <class Law, class Measure>
+void sweep(RowSweep& row, const Law& law, const Measure& measure) {
   sweep_row(row, law, measure);
 }
 
-double largest_frequency(const RowSweep& row, const Elastic& law, double quad_mass, double at_least) {
-  return bound_row(row, law, quad_mass, at_least);
+template <class Law>
+constexpr Sweep<Law> kSweep = {&sweep<Law, PlaneStrain>, &sweep<Law, Axisymmetric>};
+
+template <class Measure>
+double largest_frequency(const RowSweep& row, const Elastic& law, const QuadMass& mass, const Measure& measure,
+                         double at_least) {
+  return bound_row(row, law, mass, measure, at_least);
 }
+
+constexpr LargestFrequency kLargestFrequency = {&largest_frequency<PlaneStrain>, &largest_frequency<Axisymmetric>};
 
 void kick(double* __restrict velocity, const double* __restrict force, const double* __restrict inverse_mass,
           double weight, std::size_t n) {
@@ -37,7 +44,7 @@ void drift(double* __restrict position, const double* __restrict velocity, doubl
 
 extern const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA);
 const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {
-    GS_TEXT(GRAINSTEP_FE_ISA), &sweep<Elastic>, &sweep<Dh36>, &sweep<Core>, &sweep<Foam>,
-    &largest_frequency,        &kick,           &drift};
+    GS_TEXT(GRAINSTEP_FE_ISA), kSweep<Elastic>, kSweep<Dh36>, kSweep<Core>, kSweep<Foam>,
+    kLargestFrequency,         &kick,           &drift};
 
 }  // namespace grainstep::fe

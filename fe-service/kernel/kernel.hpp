@@ -52,17 +52,45 @@ constexpr std::size_t scratch_size(int quads) { return 8 * scratch_row(quads); }
 /// Of omega^2, relative.
 inline constexpr double kFrequencyTolerance = 1e-4;
 
+/// Stress at the end of the step and internal nodal forces from it, of one row: the loop's copies for a law.
+template <class Law>
+struct Sweep {
+  void (*plane_strain)(RowSweep&, const Law&, const PlaneStrain&);
+  void (*axisymmetric)(RowSweep&, const Law&, const Axisymmetric&);
+
+  void operator()(RowSweep& row, const Law& law, const Measure& measure) const {
+    if (const auto* plane = std::get_if<PlaneStrain>(&measure)) return plane_strain(row, law, *plane);
+    axisymmetric(row, law, std::get<Axisymmetric>(measure));
+  }
+};
+
+/// What lumped masses of a row's undeformed quads follow from.
+struct QuadMass {
+  double areal;  ///< kg/m, density x area: the mass of a unit thickness
+  double left;   ///< m, x1 where the first quad begins
+  double width;  ///< m, of a quad
+};
+
+/// An upper bound of omega^2 of all quads of a row (upper, lower and centre positions, quads), 1/s^2, not below
+/// `at_least` and, where above, within kFrequencyTolerance of the smallest there is (kernel/frequency.hpp).
+struct LargestFrequency {
+  double (*plane_strain)(const RowSweep&, const Elastic&, const QuadMass&, const PlaneStrain&, double at_least);
+  double (*axisymmetric)(const RowSweep&, const Elastic&, const QuadMass&, const Axisymmetric&, double at_least);
+
+  double operator()(const RowSweep& row, const Elastic& law, const QuadMass& mass, const Measure& measure,
+                    double at_least) const {
+    if (const auto* plane = std::get_if<PlaneStrain>(&measure)) return plane_strain(row, law, mass, *plane, at_least);
+    return axisymmetric(row, law, mass, std::get<Axisymmetric>(measure), at_least);
+  }
+};
+
 struct Kernels {
   const char* name;
-  /// Stress at the end of the step and internal nodal forces from it, of one row.
-  void (*sweep_elastic)(RowSweep&, const Elastic&, const PlaneStrain&);
-  void (*sweep_dh36)(RowSweep&, const Dh36&, const PlaneStrain&);
-  void (*sweep_core)(RowSweep&, const Core&, const PlaneStrain&);
-  void (*sweep_foam)(RowSweep&, const Foam&, const PlaneStrain&);
-  /// An upper bound of omega^2 of all quads of a row (upper, lower and centre positions, quads), 1/s^2, not below
-  /// `at_least` and, where above, within kFrequencyTolerance of the smallest there is. `quad_mass` is that of a unit
-  /// thickness, kg/m (kernel/frequency.hpp).
-  double (*largest_frequency)(const RowSweep&, const Elastic&, double quad_mass, double at_least);
+  Sweep<Elastic> sweep_elastic;
+  Sweep<Dh36> sweep_dh36;
+  Sweep<Core> sweep_core;
+  Sweep<Foam> sweep_foam;
+  LargestFrequency largest_frequency;
   /// velocity += weight * force * inverse_mass
   void (*kick)(double* velocity, const double* force, const double* inverse_mass, double weight, std::size_t n);
   /// position += step * velocity

@@ -43,12 +43,18 @@ inline double step_parameter(const Foam& law, double step) { return law.viscosit
 // The body of every lane loop is one call: GCC gives aggregates that are declared in the body of an `omp simd` loop a
 // home in memory, which keeps it from vectorising; those of an inlined function become registers.
 
-/// Rotates the old stress of triangle T and adds the elastic increment. Leaves the predictor in `state`.
-template <int T, class Measure, class Memory>
-GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Elastic& law, const Measure& measure, double step,
-                                   double* state, Memory& flow, int l) {
+/// A triangle's increments over a step, and its volume at the middle of it.
+struct Increments {
+  StrainIncrement strain;
+  double half_tangent;
+  double volume;
+
+  [[nodiscard]] GS_ALWAYS_INLINE double dilatation() const { return strain.xx + strain.yy + strain.zz; }
+};
+
+template <int T, class Measure>
+GS_ALWAYS_INLINE Increments increments(const Batch& batch, const Measure& measure, double step, int l) {
   constexpr int next = (T + 1) % kQuadTriangles;
-  const int i = T * kBatchQuads + l;
   const Vec2 moved_a = step * batch.rate(T, l);
   const Vec2 moved_b = step * batch.rate(next, l);
   const Vec2 middle_a = batch.arm(T, l) - 0.5 * moved_a;
@@ -57,43 +63,107 @@ GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Elastic& law, const
   const double moved_x = step * batch.centre_u[l];
   const double x = batch.centre_x[l] - 0.5 * moved_x + (middle_a.x + middle_b.x) * (1.0 / 3.0);
   const double u = moved_x + (moved_a.x + moved_b.x) * (1.0 / 3.0);
-  const Stress old = rotate(stress_of(state, i), m.half_tangent);
-  const StrainIncrement strain{m.xx, m.yy, m.gamma, measure.out_of_plane_increment(x, u)};
-  const Stress change = rotate_from_middle(law.increment(strain), m.half_tangent);
+  return {{m.xx, m.yy, m.gamma, measure.out_of_plane_increment(x, u)},
+          m.half_tangent,
+          0.5 * m.twice_area * measure.thickness(x)};
+}
+
+/// Mean dilatation of a quad, by volume.
+template <class Measure>
+GS_ALWAYS_INLINE void dilate_lane(const Batch& batch, const Measure& measure, double step, double* mean, int l) {
+  const Increments bottom = increments<0>(batch, measure, step, l);
+  const Increments right = increments<1>(batch, measure, step, l);
+  const Increments top = increments<2>(batch, measure, step, l);
+  const Increments left = increments<3>(batch, measure, step, l);
+  mean[l] = (bottom.volume * bottom.dilatation() + right.volume * right.dilatation() + top.volume * top.dilatation() +
+             left.volume * left.dilatation()) /
+            (bottom.volume + right.volume + top.volume + left.volume);
+}
+
+/// Rotates the old stress of triangle T and adds the elastic increment. Leaves the predictor in `state`.
+template <int T, class Measure, class Memory>
+GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Elastic& law, const Measure& measure, double step,
+                                   const double* dilatation, double* state, Memory& flow, int l) {
+  const int i = T * kBatchQuads + l;
+  Increments now = increments<T>(batch, measure, step, l);
+  if constexpr (Measure::kSharesDilatation) {
+    const double missing = (dilatation[l] - now.dilatation()) * (1.0 / 3.0);
+    now.strain = {now.strain.xx + missing, now.strain.yy + missing, now.strain.gamma, now.strain.zz + missing};
+  }
+  const Stress old = rotate(stress_of(state, i), now.half_tangent);
+  const Stress change = rotate_from_middle(law.increment(now.strain), now.half_tangent);
   const Stress trial = {old.xx + change.xx, old.yy + change.yy, old.xy + change.xy, old.zz + change.zz};
   set_stress(state, i, trial);
-  remember(flow, i, 0.5 * m.twice_area * measure.thickness(x), old, trial, m.half_tangent);
+  remember(flow, i, now.volume, old, trial, now.half_tangent);
 }
 
 template <int T, class Measure, class Memory>
 GS_ALWAYS_INLINE void predict_triangle(const Batch& batch, const Elastic& law, const Measure& measure, double step,
-                                       double* state, Memory& flow) {
+                                       const double* dilatation, double* state, Memory& flow) {
 #pragma omp simd
-  for (int l = 0; l < kBatchQuads; ++l) predict_lane<T>(batch, law, measure, step, state, flow, l);
+  for (int l = 0; l < kBatchQuads; ++l) predict_lane<T>(batch, law, measure, step, dilatation, state, flow, l);
 }
 
 template <class Measure, class Memory>
 GS_ALWAYS_INLINE void predict(const Batch& batch, const Elastic& law, const Measure& measure, double step,
                               double* state, Memory& flow) {
-  predict_triangle<0>(batch, law, measure, step, state, flow);
-  predict_triangle<1>(batch, law, measure, step, state, flow);
-  predict_triangle<2>(batch, law, measure, step, state, flow);
-  predict_triangle<3>(batch, law, measure, step, state, flow);
+  double dilatation[kBatchQuads];
+  if constexpr (Measure::kSharesDilatation) {
+#pragma omp simd
+    for (int l = 0; l < kBatchQuads; ++l) dilate_lane(batch, measure, step, dilatation, l);
+  }
+  predict_triangle<0>(batch, law, measure, step, dilatation, state, flow);
+  predict_triangle<1>(batch, law, measure, step, dilatation, state, flow);
+  predict_triangle<2>(batch, law, measure, step, dilatation, state, flow);
+  predict_triangle<3>(batch, law, measure, step, dilatation, state, flow);
 }
 
-/// What a triangle's stress does to its outer nodes, N.
+/// What a triangle's stress does to its outer nodes, N; that of x3 pulls all three nodes by `hoop`.
 struct Pull {
   Vec2 on_a, on_b;
+  double hoop;
   double twice_area;
 };
 
 template <int T, class Measure>
-GS_ALWAYS_INLINE Pull pull(const Batch& batch, const Measure& measure, const double* state, int lane) {
+GS_ALWAYS_INLINE double twice_volume(const Batch& batch, const Measure& measure, int lane) {
+  const Vec2 a = batch.arm(T, lane);
+  const Vec2 b = batch.arm((T + 1) % kQuadTriangles, lane);
+  return cross(a, b) * measure.thickness(batch.centre_x[lane] + (a.x + b.x) * (1.0 / 3.0));
+}
+
+/// Mean of a quad's mean stress, by volume: what works on its mean dilatation.
+template <class Measure>
+GS_ALWAYS_INLINE double quad_mean(const Batch& batch, const Measure& measure, const double* state, int lane) {
+  const double bottom = twice_volume<0>(batch, measure, lane);
+  const double right = twice_volume<1>(batch, measure, lane);
+  const double top = twice_volume<2>(batch, measure, lane);
+  const double left = twice_volume<3>(batch, measure, lane);
+  return (bottom * mean(stress_of(state, lane)) + right * mean(stress_of(state, kBatchQuads + lane)) +
+          top * mean(stress_of(state, 2 * kBatchQuads + lane)) +
+          left * mean(stress_of(state, 3 * kBatchQuads + lane))) /
+         (bottom + right + top + left);
+}
+
+/// `shared`: quad_mean().
+template <int T, class Measure>
+GS_ALWAYS_INLINE Pull pull(const Batch& batch, const Measure& measure, const double* state, double shared, int lane) {
   const Vec2 a = batch.arm(T, lane);
   const Vec2 b = batch.arm((T + 1) % kQuadTriangles, lane);
   const double thickness = measure.thickness(batch.centre_x[lane] + (a.x + b.x) * (1.0 / 3.0));
-  const Stress stress = stress_of(state, T * kBatchQuads + lane);
-  return {-thickness * traction(stress, b), thickness * traction(stress, a), cross(a, b)};
+  Stress stress = stress_of(state, T * kBatchQuads + lane);
+  if constexpr (Measure::kSharesDilatation) {
+    const double change = shared - mean(stress);
+    stress = {stress.xx + change, stress.yy + change, stress.xy, stress.zz + change};
+  }
+  const double twice_area = cross(a, b);
+  Pull found = {-thickness * traction(stress, b), thickness * traction(stress, a), 0.0, twice_area};
+  if constexpr (Measure::kHoops) {
+    found.hoop = measure.hoop_pull(stress.zz, twice_area);
+    found.on_a.x -= found.hoop;
+    found.on_b.x -= found.hoop;
+  }
+  return found;
 }
 
 /// Rows of corner contributions, so that neighbouring batches need not wait for each other's stores.
@@ -108,10 +178,12 @@ template <class Measure>
 GS_ALWAYS_INLINE void force_lane(const Batch& batch, const Measure& measure, const double* state, int first,
                                  const Contributions& upper, const Contributions& lower, double* min_twice_area,
                                  double* centre_x, double* centre_y, int l) {
-  const Pull bottom = pull<0>(batch, measure, state, l);
-  const Pull right = pull<1>(batch, measure, state, l);
-  const Pull top = pull<2>(batch, measure, state, l);
-  const Pull left = pull<3>(batch, measure, state, l);
+  double shared = 0.0;
+  if constexpr (Measure::kSharesDilatation) shared = quad_mean(batch, measure, state, l);
+  const Pull bottom = pull<0>(batch, measure, state, shared, l);
+  const Pull right = pull<1>(batch, measure, state, shared, l);
+  const Pull top = pull<2>(batch, measure, state, shared, l);
+  const Pull left = pull<3>(batch, measure, state, shared, l);
   const double area_1 = bottom.twice_area < right.twice_area ? bottom.twice_area : right.twice_area;
   const double area_2 = top.twice_area < left.twice_area ? top.twice_area : left.twice_area;
   const double area = area_1 < area_2 ? area_1 : area_2;
@@ -129,6 +201,8 @@ GS_ALWAYS_INLINE void force_lane(const Batch& batch, const Measure& measure, con
   upper.left_x[first + l] = upper_left.x;
   upper.left_y[first + l] = upper_left.y;
   centre_x[l] = -(lower_left.x + lower_right.x + upper_right.x + upper_left.x);
+  // In the plane, forces add up to zero; of the hoops' each node has the same.
+  if constexpr (Measure::kHoops) centre_x[l] -= 3.0 * (bottom.hoop + right.hoop + top.hoop + left.hoop);
   centre_y[l] = -(lower_left.y + lower_right.y + upper_right.y + upper_left.y);
 }
 
@@ -161,7 +235,7 @@ GS_ALWAYS_INLINE void assemble(double* __restrict force, double* __restrict left
 }
 
 /// Cuts the scratch into rows, each with a zero in front.
-inline Contributions contributions(double* scratch, int quads, int which) {
+GS_ALWAYS_INLINE Contributions contributions(double* scratch, int quads, int which) {
   double* rows[4];
   for (int r = 0; r < 4; ++r) {
     rows[r] = scratch + static_cast<std::size_t>(4 * which + r) * scratch_row(quads) + kBatchQuads;

@@ -36,16 +36,21 @@ double LoadedPatch::width() const {
   return sum;
 }
 
-void LoadedPatch::press(double impulse, double depth, std::span<const double> position, std::span<double> nodal) const {
+void LoadedPatch::press(double impulse, const Measure& measure, std::span<const double> position,
+                        std::span<double> nodal) const {
   for (const Part& part : parts_) {
     const std::size_t a = 2 * part.first;
     const std::size_t b = 2 * part.second;
-    const double scale = impulse * depth * part.share;
+    const double grows = is_of_revolution(measure) ? position[b] - position[a] : 0.0;
+    const double radius = position[a] + part.middle * grows;
+    // Where the resultant stands: of rings r(s), integral of s r over that of r.
+    const double at = grows == 0.0 ? part.middle : part.middle + grows * part.share * part.share / (12.0 * radius);
+    const double scale = impulse * thickness(measure, radius) * part.share;
     const Vec2 given{scale * (position[b + 1] - position[a + 1]), -scale * (position[b] - position[a])};
-    nodal[a] += (1.0 - part.middle) * given.x;
-    nodal[a + 1] += (1.0 - part.middle) * given.y;
-    nodal[b] += part.middle * given.x;
-    nodal[b + 1] += part.middle * given.y;
+    nodal[a] += (1.0 - at) * given.x;
+    nodal[a + 1] += (1.0 - at) * given.y;
+    nodal[b] += at * given.x;
+    nodal[b + 1] += at * given.y;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "fe-service/measure.hpp"
 #include "fe-service/triangle.hpp"
 #include "grainstep/wire.pb.h"
 
@@ -20,10 +21,11 @@ class LoadedPatch {
   [[nodiscard]] double width() const;
 
   /// Adds the impulse of `impulse` (Pa s) on the surface at `position` (m, nodes x 2) to `nodal` (N s, nodes x 2). It
-  /// acts against the current outward normal, on the current length times the depth b. With the linear shape functions
-  /// of a segment, the uniform load on a part of it goes to its two nodes as its resultant in the part's middle does:
-  /// force and moment are exact, on deformed segments as well.
-  void press(double impulse, double depth, std::span<const double> position, std::span<double> nodal) const;
+  /// acts against the current outward normal, on the current area: length times the depth b, or the rings. With the
+  /// linear shape functions of a segment, the uniform load on a part of it goes to its two nodes as its resultant does,
+  /// which stands in the part's middle, or beyond it where rings grow: force and moment are exact, on deformed segments
+  /// as well, and so is the work against the volume that the surface sweeps.
+  void press(double impulse, const Measure& measure, std::span<const double> position, std::span<double> nodal) const;
 
  private:
   struct Part {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "fe-service/solid.hpp"
 #include "fe-service/windows.hpp"
 #include "load/pressure_history.hpp"
 #include "participant/schedule.hpp"
@@ -17,15 +18,14 @@ wire::Hello PrescribedLoad::describe() const {
   hello.set_backend("grainstep-fe (prescribed load)");
   hello.set_version(GRAINSTEP_VERSION);
   hello.set_dimension(2);
-  for (const char* capability : {"pressure", "none", "plane_strain"}) hello.add_capabilities(capability);
+  for (const char* capability : {"pressure", "none", "plane_strain", "axisymmetric"})
+    hello.add_capabilities(capability);
   hello.set_process(static_cast<std::uint64_t>(getpid()));
   return hello;
 }
 
 wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
   if (!setup.has_impactor()) throw InputError("setup: started as an impactor, but was sent a structure's part");
-  if (setup.symmetry() != scene::SYMMETRY_PLANE_STRAIN)
-    throw InputError("symmetry: a prescribed load knows `plane_strain` only");
   const scene::Impactor& impactor = setup.impactor().impactor();
   const wire::Surface& surface = setup.impactor().surface();
   if (impactor.type() == scene::Impactor::TYPE_PRESSURE) {
@@ -35,7 +35,7 @@ wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
     throw InputError(
         "impactor.type: grainstep-fe plays `foam`, `pressure` and `none`; a slug is computed by grainstep-dem");
   }
-  depth_ = setup.depth();
+  measure_ = make_measure(setup.symmetry(), setup.depth());
   now_.assign(surface.position().begin(), surface.position().end());
   velocity_.assign(surface.velocity().begin(), surface.velocity().end());
   velocity_.resize(now_.size(), 0.0);
@@ -60,9 +60,9 @@ void PrescribedLoad::evaluate(std::uint64_t window) {
   for (std::uint32_t k = 1; pressure_ && k < steps; ++k) {
     const double part = static_cast<double>(k) / steps;
     for (std::size_t i = 0; i < now_.size(); ++i) between_[i] = before_[i] + part * (now_[i] - before_[i]);
-    patch_->press(step_impulse((window - 1) * steps_ + k), depth_, between_, impulse_);
+    patch_->press(step_impulse((window - 1) * steps_ + k), measure_, between_, impulse_);
   }
-  if (pressure_) patch_->press(step_impulse(window * steps_), depth_, now_, last_step_);
+  if (pressure_) patch_->press(step_impulse(window * steps_), measure_, now_, last_step_);
   for (std::size_t i = 0; i < now_.size(); ++i) impulse_[i] += last_step_[i];
 }
 

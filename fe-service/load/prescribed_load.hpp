@@ -36,8 +36,8 @@ class PrescribedLoad final : public participant::ImpactorBackend {
 
   std::optional<scene::Pressure> pressure_;  ///< nullopt: nothing
   std::optional<LoadedPatch> patch_;
-  double depth_ = 0.0;  ///< b, m
-  double step_ = 0.0;   ///< h, s
+  Measure measure_ = PlaneStrain{0.0};
+  double step_ = 0.0;  ///< h, s
   std::uint32_t steps_ = 1;
 
   Doubles before_, now_, between_;  ///< m, surface at the last two exchanges, and between them

@@ -9,7 +9,7 @@
 namespace grainstep::fe::test {
 
 [[nodiscard]] inline Body body_of(const scene::Structure& structure) {
-  return {make_mesh(structure), make_layers(structure), 1e-3};
+  return {make_mesh(structure), make_layers(structure), PlaneStrain{1e-3}};
 }
 
 /// Calls action(nodes, index) for every node with mass.

@@ -107,6 +107,50 @@ class Beams(unittest.TestCase):
             self.assertLess(run.summary()["momentum_error"], ROUND_OFF)
 
 
+class Plates(unittest.TestCase):
+    """Solids of revolution: forces, masses and energies of the full circle."""
+
+    def test_a_pulse_on_a_disc_bends_the_plate(self):
+        with finished(scene="plate-pulse.yaml") as run:
+            summary = run.summary()
+            self.assertAlmostEqual(summary["peak_deflection"], 0.109, delta=0.001)
+            self.assertAlmostEqual(summary["impulse_number"], 32400 / (160 * math.sqrt(470e6 / 8000)), places=12)
+            self.assertTrue(0.98 < summary["transmitted_impulse"] <= 1.0, summary["transmitted_impulse"])
+            self.assertLess(summary["momentum_error"], ROUND_OFF)
+            self.assertLess(summary["energy_drift"], 1e-3)
+            with h5py.File(run.out / "results.h5") as file:
+                first = file["profiles/pressure"][0]
+                inside = file["profiles/x1"][()] < 0.095
+                self.assertLess(np.abs(first[inside] / 86.4e6 - 1).max(), 3e-3)  # uniform, at the axis too; areas grow
+                self.assertLess(np.abs(first[file["profiles/x1"][()] > 0.104]).max(), 1e-3 * 86.4e6)
+
+    def test_a_free_disc_has_newtons_velocity(self):
+        with finished("--set", "symmetry=axisymmetric", scene="free-mass.yaml") as run:
+            with h5py.File(run.out / "results.h5") as file:
+                velocity = file["series/structure/velocity"][-1]
+                momentum = file["ledger/structure/momentum/change_x2"][-1]
+            self.assertAlmostEqual(velocity / -5.0, 1.0, delta=ROUND_OFF)
+            self.assertAlmostEqual(momentum / (400 * math.pi * 0.25 * velocity), 1.0, delta=ROUND_OFF)
+            self.assertAlmostEqual(run.summary()["transmitted_impulse"], 1.0, delta=ROUND_OFF)
+            self.assertLess(run.summary()["energy_drift"], ROUND_OFF)
+            self.assertLess(run.summary()["momentum_error"], ROUND_OFF)
+
+    def test_the_ledger_of_an_elastic_plate_closes(self):
+        """A small load: what is left grows with the strain, for the rate form of elasticity has no potential."""
+        with finished("--set", "structure.layers.0.material=elastic", "--set", "time.end=0.1", "--set",
+                      "impactor.pressure.rectangular.pressure=10 kPa", scene="plate-pulse.yaml") as run:
+            self.assertLess(run.summary()["energy_drift"], 1e-8)
+            self.assertLess(run.summary()["momentum_error"], ROUND_OFF)
+
+    def test_what_does_not_fit_is_refused(self):
+        for words, text in ((("symmetry=plane_strain",), "a circular plate needs axisymmetric"),
+                            (("structure.type=beam",), "a beam is not a solid of revolution"),
+                            (("structure.extent=full",), "half is the whole of a solid of revolution")):
+            with Run(*(word for key in words for word in ("--set", key)), scene=LOADS / "plate-pulse.yaml") as run:
+                self.assertEqual(run.end().code, 2)
+                self.assertIn(text, run.stderr)
+
+
 class SameLoad(unittest.TestCase):
     def test_without_processes_bit_for_bit(self):
         shorter = ("time.end=0.1", "output.snapshots=3")

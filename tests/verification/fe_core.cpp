@@ -72,7 +72,7 @@ TEST_P(CoreShock, SpeedAndStressAreThoseOfTheJumpConditions) {
   law.viscosity = width * law.elastic.density * piston / 0.85;  // (3.10)
   const scene::Structure structure =
       test::beam(scene::Layer::MATERIAL_ELASTIC, 2.0 * kShockElement, kColumn, 0.5 * kColumn / kShockElement);
-  Body body(make_mesh(structure), {law}, 1e-3);
+  Body body(make_mesh(structure), {law}, PlaneStrain{1e-3});
   const double end = 1.9 * kColumn / std::sqrt(law.elastic.longitudinal_modulus() / law.elastic.density);
   double time = 0.0;
   double first_time = 0.0;
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(Pistons, CoreShock, testing::Values(300.0, 600.0));
 TEST(CorePatch, HomogeneousFlowOnADistortedMesh) {
   const Core law = make_law(0.25, 6e3);
   const scene::Structure structure = test::beam(scene::Layer::MATERIAL_ELASTIC, 9e-3, 8e-3, 4);
-  Body body(make_mesh(structure), {law}, 1e-3);
+  Body body(make_mesh(structure), {law}, PlaneStrain{1e-3});
   std::mt19937 random(2);
   const auto shift = [&random] { return 0.2e-3 * (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0); };
   test::for_each_node(body, [&](Nodes& nodes, std::size_t i) {
@@ -218,7 +218,7 @@ Response kicked_beam(double refinement) {
   *structure.add_layers() = test::core(16.5e-3, 8000.0 * (5e-3 / 3.0) / 16.5e-3, 0.1 * 165e-3 * 808.0 * 40.0 / 0.848);
   *structure.add_layers() = test::steel(scene::Layer::MATERIAL_DH36, 5e-3 / 3.0);
   test::set_core(structure, 0.11);
-  Body body(make_mesh(structure), make_layers(structure), 1e-3);
+  Body body(make_mesh(structure), make_layers(structure), PlaneStrain{1e-3});
   const Mesh& mesh = body.mesh();
   kick_face(body, -150.0);
   Response response{0.0, 0.0, 0.0};

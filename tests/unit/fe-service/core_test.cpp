@@ -182,7 +182,7 @@ TEST(Core, TensionUndoesCompaction) {
 /// Two elements' height of core, moved by hand.
 Body core_block(const Core& law, const Kernels& kernels = *available_kernels().front()) {
   const scene::Structure structure = test::beam(scene::Layer::MATERIAL_ELASTIC, 9e-3, 4e-3, 2);
-  return {make_mesh(structure), {law}, 1e-3, kernels};
+  return {make_mesh(structure), {law}, PlaneStrain{1e-3}, kernels};
 }
 
 // On every instruction set: the point's law, in every triangle, while the block is crushed and sheared homogeneously;

@@ -197,7 +197,7 @@ TEST(Foam, EveryStepMeetsTheFlowRule) {
 /// Two elements' height of foam, moved by hand.
 Body foam_block(const Foam& law, const Kernels& kernels = *available_kernels().front()) {
   const scene::Structure structure = test::beam(scene::Layer::MATERIAL_ELASTIC, 9e-3, 4e-3, 2);
-  return {make_mesh(structure), {law}, 1e-3, kernels};
+  return {make_mesh(structure), {law}, PlaneStrain{1e-3}, kernels};
 }
 
 class FoamBody : public testing::TestWithParam<const Kernels*> {};

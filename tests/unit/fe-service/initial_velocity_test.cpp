@@ -31,7 +31,7 @@ void range(scene::Range& range, double from, double to) {
 }
 
 Body moving(const scene::Structure& structure) {
-  Body body(make_mesh(structure), make_layers(structure), 1e-3);
+  Body body(make_mesh(structure), make_layers(structure), PlaneStrain{1e-3});
   set_initial_velocity(structure, body);
   return body;
 }
@@ -76,11 +76,25 @@ TEST(InitialVelocity, EverywhereIsOneVelocityButForWhatIsHeld) {
 
 TEST(InitialVelocity, ARigidTargetHasItsMean) {
   scene::Structure structure = two_layers();
-  EXPECT_EQ(mean_initial_velocity(structure).y, 0.0);
+  EXPECT_EQ(mean_initial_velocity(structure, PlaneStrain{1e-3}).y, 0.0);
   add(structure, 0.0, -6.0).set_layer(0);
-  EXPECT_DOUBLE_EQ(mean_initial_velocity(structure).y, -4.0);
+  EXPECT_DOUBLE_EQ(mean_initial_velocity(structure, PlaneStrain{1e-3}).y, -4.0);
   range(*structure.mutable_initial_velocity(0)->mutable_patch(), 0.05, 0.3);
-  EXPECT_DOUBLE_EQ(mean_initial_velocity(structure).y, -2.0);
+  EXPECT_DOUBLE_EQ(mean_initial_velocity(structure, PlaneStrain{1e-3}).y, -2.0);
+}
+
+// A ring's part of the momentum of a field that covers a part of its elements: by area, on any mesh.
+TEST(InitialVelocity, OfADiscGoesByArea) {
+  scene::Structure structure = test::beam(scene::Layer::MATERIAL_ELASTIC, 0.1, 0.02, 3);
+  scene::InitialVelocity& field = *structure.add_initial_velocity();
+  field.set_x2(-4.0);
+  field.mutable_patch()->set_from(0.0);
+  field.mutable_patch()->set_to(0.05);
+  Body body(make_mesh(structure), make_layers(structure), Axisymmetric{});
+  set_initial_velocity(structure, body);
+  const double expected = -4.0 * 8000.0 * 0.02 * M_PI * 0.05 * 0.05;
+  EXPECT_NEAR(linear_momentum(body, Velocities::of(body)).y / expected, 1.0, 1e-12);
+  EXPECT_NEAR(mean_initial_velocity(structure, Axisymmetric{}).y, -1.0, 1e-14);
 }
 
 }  // namespace

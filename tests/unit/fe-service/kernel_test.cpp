@@ -16,10 +16,10 @@ namespace grainstep::fe {
 namespace {
 
 /// Two layers of quads of 1 mm, DH36 on top of elastic.
-Body layered_body(int columns, const Kernels& kernels) {
+Body layered_body(int columns, const Kernels& kernels, const Measure& measure = PlaneStrain{1e-3}) {
   scene::Structure structure = test::beam(scene::Layer::MATERIAL_DH36, columns * 1e-3, 2e-3, 2);
   *structure.add_layers() = test::steel(scene::Layer::MATERIAL_ELASTIC, 2e-3);
-  return {make_mesh(structure), make_layers(structure), 1e-3, kernels};
+  return {make_mesh(structure), make_layers(structure), measure, kernels};
 }
 
 /// A smooth motion that stretches, shears and turns, differently everywhere.
@@ -29,16 +29,17 @@ void prescribe(Body& body, double time) {
       const double x = nodes->x0[i];
       const double y = nodes->y0[i];
       nodes->u[i] = 40.0 * std::sin(300.0 * x + 1.0) + 2e4 * y * std::cos(2e5 * time);
+      if (is_of_revolution(body.measure())) nodes->u[i] *= x / (x + 1e-3);  // nothing at the axis
       nodes->v[i] = -60.0 * std::sin(500.0 * x) + 1e4 * y;
     }
   }
 }
 
-class EveryKernel : public testing::TestWithParam<std::tuple<const Kernels*, int>> {};
+class EveryKernel : public testing::TestWithParam<std::tuple<const Kernels*, int, Measure>> {};
 
 TEST_P(EveryKernel, AgreesWithThePlainLoop) {
-  const auto [kernels, columns] = GetParam();
-  Body body = layered_body(columns, *kernels);
+  const auto [kernels, columns, measure] = GetParam();
+  Body body = layered_body(columns, *kernels, measure);
   test::ReferenceLoop reference(body);
   const double step = 5e-8;
   double plastic_work = 0.0;
@@ -70,13 +71,15 @@ TEST_P(EveryKernel, AgreesWithThePlainLoop) {
   EXPECT_NEAR(plastic_work, reference_work, 1e-8 * reference_work);
 }
 
-std::string name_of(const testing::TestParamInfo<std::tuple<const Kernels*, int>>& info) {
-  return std::string(std::get<0>(info.param)->name) + "_" + std::to_string(std::get<1>(info.param)) + "_columns";
+std::string name_of(const testing::TestParamInfo<std::tuple<const Kernels*, int, Measure>>& info) {
+  return std::string(std::get<0>(info.param)->name) + "_" + std::to_string(std::get<1>(info.param)) + "_columns" +
+         (is_of_revolution(std::get<2>(info.param)) ? "_of_rings" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel,
                          testing::Combine(testing::ValuesIn(available_kernels().begin(), available_kernels().end()),
-                                          testing::Values(1, 7, 8, 9, 16, 21)),
+                                          testing::Values(1, 7, 8, 9, 16, 21),
+                                          testing::Values(Measure{PlaneStrain{1e-3}}, Measure{Axisymmetric{}})),
                          name_of);
 
 // A column's result does not depend on how many columns follow it: lanes beyond the end have no effect at all.
@@ -120,12 +123,13 @@ TEST(Kernel, SameInputSameBits) {
   EXPECT_EQ(std::memcmp(first.corners.fy.data(), second.corners.fy.data(), bytes), 0);
 }
 
-/// Random displacements of every node by up to `part` of an element's side.
+/// Random displacements of every node by up to `part` of an element's side; those on an axis stay on it.
 void distort(Body& body, double part, unsigned seed) {
   std::mt19937 random(seed);
   for (Nodes* nodes : {&body.corners, &body.centres}) {
     for (std::size_t i = 0; i < nodes->x.size(); ++i) {
-      nodes->x[i] += part * 1e-3 * (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0);
+      const bool held = is_of_revolution(body.measure()) && nodes->x0[i] == 0.0;
+      nodes->x[i] += (held ? 0.0 : part * 1e-3) * (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0);
       nodes->y[i] += part * 1e-3 * (2.0 * static_cast<double>(random()) / std::mt19937::max() - 1.0);
     }
   }
@@ -135,20 +139,22 @@ void distort(Body& body, double part, unsigned seed) {
 TEST(Kernel, StableStepIsTheSmallestQuads) {
   for (const Kernels* kernels : available_kernels()) {
     for (const double part : {0.0, 0.05, 0.2}) {
-      Body body = layered_body(11, *kernels);
-      distort(body, part, 7);
-      double smallest = HUGE_VAL;
-      for (int row = 0; row < body.mesh().row_count(); ++row) {
-        for (int column = 0; column < body.mesh().columns; ++column) {
-          const double exact = 2.0 / std::sqrt(test::quad_frequency(body, row, column));
-          const double found = body.stable_step(row, column);
-          EXPECT_LE(found, exact * (1.0 + 1e-12)) << kernels->name;
-          EXPECT_GE(found, exact * (1.0 - 0.5 * kFrequencyTolerance)) << kernels->name;
-          smallest = std::min(smallest, exact);
+      for (const Measure& measure : {Measure{PlaneStrain{1e-3}}, Measure{Axisymmetric{}}}) {
+        Body body = layered_body(11, *kernels, measure);
+        distort(body, part, 7);
+        double smallest = HUGE_VAL;
+        for (int row = 0; row < body.mesh().row_count(); ++row) {
+          for (int column = 0; column < body.mesh().columns; ++column) {
+            const double exact = 2.0 / std::sqrt(test::quad_frequency(body, row, column));
+            const double found = body.stable_step(row, column);
+            EXPECT_LE(found, exact * (1.0 + 1e-12)) << kernels->name;
+            EXPECT_GE(found, exact * (1.0 - 0.5 * kFrequencyTolerance)) << kernels->name;
+            smallest = std::min(smallest, exact);
+          }
         }
+        EXPECT_LE(body.stable_step(), smallest * (1.0 + 1e-12)) << kernels->name;
+        EXPECT_GE(body.stable_step(), smallest * (1.0 - 0.5 * kFrequencyTolerance)) << kernels->name;
       }
-      EXPECT_LE(body.stable_step(), smallest * (1.0 + 1e-12)) << kernels->name;
-      EXPECT_GE(body.stable_step(), smallest * (1.0 - 0.5 * kFrequencyTolerance)) << kernels->name;
     }
   }
 }

@@ -58,7 +58,7 @@ Resultant resultant(const std::vector<double>& position, const std::vector<doubl
 
 Resultant pressed(const LoadedPatch& loaded, const std::vector<double>& position) {
   std::vector<double> nodal(position.size(), 0.0);
-  loaded.press(3.0, 0.5, position, nodal);
+  loaded.press(3.0, PlaneStrain{0.5}, position, nodal);
   return resultant(position, nodal);
 }
 
@@ -121,13 +121,37 @@ TEST(LoadedPatch, WorkIsPressureTimesSweptArea) {
     velocity[i + 1] = 1.0 - bent[i] * bent[i];
   }
   std::vector<double> nodal(bent.size(), 0.0);
-  LoadedPatch(face(), {}).press(1.0, 1.0, bent, nodal);
+  LoadedPatch(face(), {}).press(1.0, PlaneStrain{1.0}, bent, nodal);
   const double power = std::inner_product(nodal.begin(), nodal.end(), velocity.begin(), 0.0);
   constexpr double dt = 1e-3;  // the area is quadratic in time: its central difference is exact
   EXPECT_NEAR(power, -(swept(bent, velocity, dt) - swept(bent, velocity, -dt)) / (2.0 * dt), 1e-12);
 }
 
 TEST(LoadedPatch, RefusesAPatchBesideTheFace) { EXPECT_THROW(LoadedPatch(face(), patch(2.0, 3.0)), InputError); }
+
+// Of revolution: force p pi R^2, and the work on any motion is p times the volume that the surface sweeps.
+TEST(LoadedPatch, PressesRings) {
+  const std::vector<double> position = positions(face());
+  for (const auto& [from, to] : {std::pair{0.0, 1.0}, std::pair{0.05, 0.4}, std::pair{0.7, 0.8}}) {
+    std::vector<double> nodal(position.size(), 0.0);
+    LoadedPatch(face(), patch(from, to)).press(3.0, Axisymmetric{}, position, nodal);
+    EXPECT_NEAR(resultant(position, nodal).y, -3.0 * M_PI * (to * to - from * from), 1e-13);
+    // Pushed in by a cone w = r: the integral of r 2 pi r.
+    double work = 0.0;
+    for (std::size_t i = 0; i < nodal.size(); i += 2) work -= nodal[i + 1] * position[i];
+    EXPECT_NEAR(work, 3.0 * 2.0 * M_PI * (to * to * to - from * from * from) / 3.0, 1e-13);
+  }
+}
+
+TEST(LoadedPatch, PressesACone) {
+  std::vector<double> position = positions(face());
+  for (std::size_t i = 0; i < 10; i += 2) position[i + 1] = -0.5 * position[i];
+  std::vector<double> nodal(position.size(), 0.0);
+  LoadedPatch(face(), {}).press(3.0, Axisymmetric{}, position, nodal);
+  // Along z it feels its shadow, along r slope times that (2 pi r dr): outwards normal (0.5, 1), pressed against it.
+  EXPECT_NEAR(resultant(position, nodal).y, -3.0 * M_PI, 1e-13);
+  EXPECT_NEAR(resultant(position, nodal).x, -3.0 * M_PI * 0.5, 1e-13);
+}
 
 }  // namespace
 }  // namespace grainstep::fe

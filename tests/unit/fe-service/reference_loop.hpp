@@ -15,6 +15,9 @@ struct ReferenceTriangle {
   int nodes[3];
   double area0;
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d increment = Eigen::Matrix3d::Zero();  ///< of strain
+  Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
+  double middle_volume = 0.0;
   double plastic_strain = 0.0;
 };
 
@@ -44,7 +47,10 @@ class ReferenceLoop {
   void sweep(double step) {
     force.assign(node_count_, Eigen::Vector2d::Zero());
     plastic_work = 0.0;
+    for (ReferenceTriangle& triangle : triangles) strain(triangle, step);
+    for (std::size_t first = 0; first < triangles.size(); first += 4) share_dilatation(&triangles[first]);
     for (ReferenceTriangle& triangle : triangles) update(triangle, step);
+    for (std::size_t first = 0; first < triangles.size(); first += 4) pull(&triangles[first]);
   }
 
   std::vector<ReferenceTriangle> triangles;
@@ -71,7 +77,12 @@ class ReferenceLoop {
     return 0.5 * system.determinant();
   }
 
-  void update(ReferenceTriangle& t, double step) {
+  /// Depth, or the way of the centroid around the axis.
+  [[nodiscard]] double thickness_of(const Eigen::Vector2d x[3]) const {
+    return fe::thickness(body_->measure(), (x[0].x() + x[1].x() + x[2].x()) / 3.0);
+  }
+
+  void strain(ReferenceTriangle& t, double step) {
     Eigen::Vector2d end[3], moved[3], middle[3];
     for (int n = 0; n < 3; ++n) {
       end[n] = {pick(body_->corners.x, body_->centres.x, t.nodes[n]),
@@ -84,24 +95,67 @@ class ReferenceLoop {
     const double middle_area = gradients(middle, grad);
     Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
     for (int n = 0; n < 3; ++n) gradient.topLeftCorner<2, 2>() += moved[n] * grad.row(n);
-    const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
-    const Eigen::Matrix3d spin = 0.5 * (gradient - gradient.transpose());
+    if (is_of_revolution(body_->measure())) {
+      gradient(2, 2) = (moved[0] + moved[1] + moved[2]).x() / (middle[0] + middle[1] + middle[2]).x();
+    }
+    t.increment = 0.5 * (gradient + gradient.transpose());
+    t.spin = 0.5 * (gradient - gradient.transpose());
+    t.middle_volume = middle_area * thickness_of(middle);
+  }
+
+  /// Rings: all four triangles of a quad get the quad's change of volume.
+  void share_dilatation(ReferenceTriangle* quad) const {
+    if (!is_of_revolution(body_->measure())) return;
+    double volume = 0.0, change = 0.0;
+    for (int t = 0; t < 4; ++t) {
+      volume += quad[t].middle_volume;
+      change += quad[t].middle_volume * quad[t].increment.trace();
+    }
+    for (int t = 0; t < 4; ++t) {
+      quad[t].increment += (change / volume - quad[t].increment.trace()) / 3.0 * Eigen::Matrix3d::Identity();
+    }
+  }
+
+  void update(ReferenceTriangle& t, double step) {
     const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
-    const Eigen::Matrix3d turn = (one - 0.5 * spin).inverse() * (one + 0.5 * spin);
+    const Eigen::Matrix3d& strain = t.increment;
+    const Eigen::Matrix3d turn = (one - 0.5 * t.spin).inverse() * (one + 0.5 * t.spin);
     const Eigen::Matrix3d old = turn * t.stress * turn.transpose();
     const Elastic& elastic = elastic_part(body_->material(t.row));
     // The increment belongs to the middle of the step: it turns by half the angle.
     const double half = 0.5 * std::atan2(turn(1, 0), turn(0, 0));
     const Eigen::Matrix3d on = Eigen::AngleAxisd(half, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     t.stress = old + on * (elastic.lambda * strain.trace() * one + 2.0 * elastic.mu * strain) * on.transpose();
-    if (const auto* steel = std::get_if<Dh36>(&body_->material(t.row))) flow(*steel, old, t, step, middle_area);
-    const double area = gradients(end, grad);
-    for (int n = 0; n < 3; ++n) {
-      force[t.nodes[n]] -= body_->measure().depth * area * t.stress.topLeftCorner<2, 2>() * grad.row(n).transpose();
+    if (const auto* steel = std::get_if<Dh36>(&body_->material(t.row))) flow(*steel, old, t, step);
+  }
+
+  /// Forces of a quad's four triangles.
+  void pull(const ReferenceTriangle* quad) {
+    const bool rings = is_of_revolution(body_->measure());
+    Eigen::Vector2d x[4][3];
+    Eigen::Matrix<double, 3, 2> grad[4];
+    double area[4], volume = 0.0, pressure = 0.0;
+    for (int t = 0; t < 4; ++t) {
+      for (int n = 0; n < 3; ++n) {
+        x[t][n] = {pick(body_->corners.x, body_->centres.x, quad[t].nodes[n]),
+                   pick(body_->corners.y, body_->centres.y, quad[t].nodes[n])};
+      }
+      area[t] = gradients(x[t], grad[t]);
+      volume += area[t] * thickness_of(x[t]);
+      pressure -= area[t] * thickness_of(x[t]) * quad[t].stress.trace() / 3.0;
+    }
+    for (int t = 0; t < 4; ++t) {
+      Eigen::Matrix3d stress = quad[t].stress;
+      if (rings) stress -= (pressure / volume + stress.trace() / 3.0) * Eigen::Matrix3d::Identity();
+      for (int n = 0; n < 3; ++n) {
+        force[quad[t].nodes[n]] -=
+            thickness_of(x[t]) * area[t] * stress.topLeftCorner<2, 2>() * grad[t].row(n).transpose();
+        if (rings) force[quad[t].nodes[n]].x() -= 2.0 * M_PI * area[t] / 3.0 * stress(2, 2);
+      }
     }
   }
 
-  void flow(const Dh36& law, const Eigen::Matrix3d& old, ReferenceTriangle& t, double step, double area) {
+  void flow(const Dh36& law, const Eigen::Matrix3d& old, ReferenceTriangle& t, double step) {
     const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d s = t.stress - t.stress.trace() / 3.0 * one;
     const double q = std::sqrt(1.5) * s.norm();
@@ -119,7 +173,7 @@ class ReferenceLoop {
     const Eigen::Matrix3d plastic = 1.5 * low / q * s;
     t.stress -= 2.0 * law.elastic.mu * plastic;
     t.plastic_strain += low;
-    plastic_work += 0.5 * (old + t.stress).cwiseProduct(plastic).sum() * area * body_->measure().depth;
+    plastic_work += 0.5 * (old + t.stress).cwiseProduct(plastic).sum() * t.middle_volume;
   }
 
   const Body* body_;

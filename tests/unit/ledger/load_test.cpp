@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -29,6 +30,22 @@ TEST(SurfaceLoad, UniformPressureIsUniformOnUnequalSegments) {
     EXPECT_NEAR(p, 1.0, 1e-15);
   }
   EXPECT_NEAR(load.normal_impulse(impulse), 1.5, 1e-15);
+}
+
+// Pressure 1 on rings r = 0..1..3: 2 pi times the integrals of shape function x r, 1/6; 2/6 + 10/6; 14/6.
+TEST(SurfaceLoad, UniformPressureIsUniformOnRings) {
+  const SurfaceLoad load = SurfaceLoad::of_revolution(flat());
+  const double turn = 2.0 * std::numbers::pi;
+  const std::array impulse{0.0, -turn / 6.0, 0.0, -turn * 2.0, 0.0, -turn * 14.0 / 6.0};
+  for (const double p : load.impulse_per_area(impulse)) EXPECT_NEAR(p, 1.0, 1e-14);
+  EXPECT_NEAR(load.normal_impulse(impulse), std::numbers::pi * 9.0, 1e-13);
+}
+
+TEST(SurfaceLoad, RefusesASurfaceOfRevolutionOnItsAxis) {
+  wire::Surface surface;
+  for (const double x : {0.0, -1.0, 0.0, 0.0}) surface.add_position(x);
+  for (const unsigned node : {0U, 1U}) surface.add_segment(node);
+  EXPECT_THROW((void)SurfaceLoad::of_revolution(surface), InputError);
 }
 
 TEST(SurfaceLoad, SegmentsAddUpToTheNodes) {
