@@ -39,8 +39,8 @@ double LoadedPatch::width() const {
 void LoadedPatch::press(double impulse, const Measure& measure, std::span<const double> position,
                         std::span<double> nodal) const {
   for (const Part& part : parts_) {
-    const std::size_t a = 2 * part.first;
-    const std::size_t b = 2 * part.second;
+    const std::size_t a = std::size_t{2} * part.first;
+    const std::size_t b = std::size_t{2} * part.second;
     const double grows = is_of_revolution(measure) ? position[b] - position[a] : 0.0;
     const double radius = position[a] + part.middle * grows;
     // Where the resultant stands: of rings r(s), integral of s r over that of r.

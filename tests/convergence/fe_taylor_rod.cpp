@@ -110,7 +110,10 @@ TEST(FeTaylorRod, FinalShapeOnThreeMeshes) {
   const Shape& fine = found[2];
   in_range("final length, 16 quads across the radius", "m", 21.35e-3, 21.55e-3, fine.length);
   in_range("final radius of the foot", "m", 7.05e-3, 7.25e-3, fine.radius);
-  in_range("largest plastic strain, mean of a quad", "", 3.1, 3.5, fine.quad_strain);
+  // The published strains are those of meshes with 5 to 10 elements across. It is the last to
+  // converge: 3.16, 3.44, 3.50.
+  in_range("largest plastic strain, mean of a quad, 8 quads across", "", 3.1, 3.5, found[1].quad_strain);
+  EXPECT_NEAR(fine.quad_strain / found[1].quad_strain, 1.0, 0.025);
   for (std::size_t i = 1; i < 3; ++i) {
     EXPECT_NEAR(found[i].length / found[i - 1].length, 1.0, 3e-3);
     EXPECT_NEAR(found[i].radius / found[i - 1].radius, 1.0, 6e-3);
