@@ -42,6 +42,7 @@ CLI::App* add_study(CLI::App& app, StudyOptions& options) {
   study->add_option("--jobs", options.jobs, "Runs at a time (default: one per core)")->check(CLI::Range(1, 4096));
   study->add_option("--ranks", options.ranks, "MPI ranks of every impactor")->check(CLI::Range(1, 4096));
   study->add_flag("--long", options.include_long, "Points that are marked long, too");
+  study->add_flag("--full", options.full, "With the study's `full` overrides: the same at the source's own resolution");
   study->add_option("--reuse", options.reuse, "Directory with runs of other studies, whose results are taken")
       ->allow_extra_args(false);
   study->add_flag("--repeat", options.repeat, "Compute again what is done, e.g. for quiet timings (with --jobs 1)");

@@ -41,6 +41,7 @@ struct StudyOptions {
   int jobs = 0;                              ///< runs at a time; 0: one per core
   int ranks = 1;                             ///< of every impactor
   bool include_long = false;
+  bool full = false;    ///< with the study's overrides of that name
   bool repeat = false;  ///< compute again what is done, e.g. for timings
   bool retry = false;   ///< compute again what failed numerically
   bool list = false;

@@ -73,12 +73,43 @@ double order_of(const Values& y, const Values& x) {
 }
 
 double interpolated(const Values& y, const Values& x, double at) {
-  require_pairs(y, x);
   const auto above = std::lower_bound(x.begin(), x.end(), at);
   if (x.empty() || above == x.end() || at < x.front()) return nothing;
   if (above == x.begin()) return y.front();
   const auto i = static_cast<std::size_t>(above - x.begin());
   return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
+}
+
+/// At every one of a list: brings histories with rows of their own to common times.
+Values interpolated_at(const Arguments& a) {
+  require_pairs(a[0], a[1]);
+  Values out;
+  for (const double at : a[2]) out.push_back(interpolated(a[0], a[1], at));
+  return out;
+}
+
+/// The first x at which y is not below `level`; NaN where it never comes so far.
+double reached(const Values& y, const Values& x, double level) {
+  require_pairs(y, x);
+  const auto above = std::find_if(y.begin(), y.end(), [level](double value) { return value >= level; });
+  if (above == y.end()) return nothing;
+  if (above == y.begin()) return x.front();
+  const auto i = static_cast<std::size_t>(above - y.begin());
+  return x[i - 1] + (x[i] - x[i - 1]) * (level - y[i - 1]) / (y[i] - y[i - 1]);
+}
+
+constexpr double most_grid_points = 1e6;
+
+/// Both ends are exact.
+Values grid(double from, double to, double count) {
+  if (!(count >= 2.0 && count <= most_grid_points)) throw InputError("grid: expected 2 to 1000000 values");
+  Values out;
+  const auto last = static_cast<std::size_t>(count) - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(last);
+    out.push_back((1.0 - part) * from + part * to);
+  }
+  return out;
 }
 
 /// The row of a table with one row per interval that begins at times[i], in which `at` lies.
@@ -90,14 +121,30 @@ Values row_of(const Values& table, const Values& times, double at) {
   return {begin, begin + static_cast<std::ptrdiff_t>(columns)};
 }
 
+/// Of every column of a table whose rows are means over intervals.
+Values over_time(const Values& table, const Values& from, const Values& to) {
+  require_pairs(to, from);
+  if (from.empty() || table.size() % from.size() != 0) throw InputError("over_time: expected one row per interval");
+  const std::size_t columns = table.size() / from.size();
+  Values out(columns);
+  for (std::size_t i = 0; i < table.size(); ++i) out[i % columns] += table[i] * (to[i / columns] - from[i / columns]);
+  return out;
+}
+
 Values differences(const Arguments& a) {
   Values out;
   for (std::size_t i = 1; i < a[0].size(); ++i) out.push_back(a[0][i] - a[0][i - 1]);
   return out;
 }
 
+Values middles(const Arguments& a) {
+  Values out;
+  for (std::size_t i = 1; i < a[0].size(); ++i) out.push_back(0.5 * (a[0][i] + a[0][i - 1]));
+  return out;
+}
+
 double single(const Values& value) {
-  if (value.size() != 1) throw InputError("the last argument must be one number, it is a list");
+  if (value.size() != 1) throw InputError("expected one number as argument, found a list");
   return value[0];
 }
 
@@ -119,12 +166,18 @@ const std::vector<Function>& functions() {
       {"last", "last(list)", 1, [](const Arguments& a) { return Values{a[0].empty() ? nothing : a[0].back()}; }},
       {"count", "count(list)", 1, [](const Arguments& a) { return Values{static_cast<double>(a[0].size())}; }},
       {"differences", "differences(list), of neighbours", 1, differences},
+      {"middles", "middles(list), of neighbours", 1, middles},
+      {"grid", "grid(from, to, count), equally spaced", 3,
+       [](const Arguments& a) { return grid(single(a[0]), single(a[1]), single(a[2])); }},
       {"slope", "slope(y, x), of the least-squares line", 2,
        [](const Arguments& a) { return Values{slope_of(a[0], a[1])}; }},
       {"order", "order(y, x), slope of log|y| over log|x|", 2,
        [](const Arguments& a) { return Values{order_of(a[0], a[1])}; }},
-      {"interpolate", "interpolate(y, x, at), x increasing", 3,
-       [](const Arguments& a) { return Values{interpolated(a[0], a[1], single(a[2]))}; }},
+      {"interpolate", "interpolate(y, x, at), x increasing; `at` may be a list", 3, interpolated_at},
+      {"reached", "reached(y, x, level), the first x at which y comes so far", 3,
+       [](const Arguments& a) { return Values{reached(a[0], a[1], single(a[2]))}; }},
+      {"over_time", "over_time(table, from, to), the integral of every column", 3,
+       [](const Arguments& a) { return over_time(a[0], a[1], a[2]); }},
       {"row", "row(table, times, at), e.g. row(profiles.pressure, profiles.from, 0.1e-3)", 3,
        [](const Arguments& a) { return row_of(a[0], a[1], single(a[2])); }}};
   return all;

@@ -1,9 +1,13 @@
 #include "study/page.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.hpp"
+#include "orchestrator/summary.hpp"
 #include "results/atomic_file.hpp"
+#include "results/hdf5.hpp"
+#include "results/run_directory.hpp"
 
 namespace grainstep::study {
 namespace {
@@ -129,6 +133,33 @@ std::string run_table(const Report& report) {
   return out;
 }
 
+/// The commit of the build that made a run; empty where the file does not say.
+std::string commit_of(const Outcome& outcome) {
+  try {
+    const auto file = results::h5::File::read(results::RunDirectory(outcome.directory).results());
+    return file.has("/build/commit") ? file.read_text("/build/commit").substr(0, 12) : "";
+  } catch (const OutputError&) {  // moved or removed since; its summary was read
+    return "";
+  }
+}
+
+/// What the finished runs were made with.
+std::string origin_of_runs(const Report& report) {
+  std::set<fs::path> runs;
+  std::set<std::string> commits;
+  double wall = 0.0;
+  for (const Outcome& outcome : report.outcomes) {
+    if (outcome.state != Outcome::State::done || !runs.insert(outcome.directory).second) continue;
+    commits.insert(commit_of(outcome));
+    wall += outcome.summary.value("wall_seconds", 0.0);
+  }
+  commits.erase("");
+  std::string out = std::to_string(runs.size()) + (runs.size() == 1 ? " run" : " runs") + ", " +
+                    figure(wall / 60.0, 3) + " minutes of wall clock if one after the other";
+  for (const std::string& commit : commits) out += (commit == *commits.begin() ? "; commit " : ", ") + commit;
+  return out + "; results version " + std::to_string(orchestrator::results_version) + ".\n";
+}
+
 }  // namespace
 
 std::string page_markdown(const Report& report, const std::string& command,
@@ -142,7 +173,7 @@ std::string page_markdown(const Report& report, const std::string& command,
       out += "![" + (plot.title().empty() ? study.title() : plot.title()) + "](" + picture + ")\n\n";
   }
   out += stated(report) + reported(report) + series_table(report) + run_table(report);
-  return out + "\nMade by `" + command + "`.\n";
+  return out + "\nMade by `" + command + "`: " + origin_of_runs(report);
 }
 
 void write_page(const Report& report, const fs::path& root, const fs::path& page, const std::string& command) {

@@ -26,7 +26,8 @@ struct Draft {
 
 class Expander {
  public:
-  Expander(Plan& plan, Complaints& complaints) : plan_(plan), complaints_(complaints) {}
+  Expander(Plan& plan, Fidelity fidelity, Complaints& complaints)
+      : plan_(plan), fidelity_(fidelity), complaints_(complaints) {}
 
   void all() {
     for (int i = 0; i < plan_.study.series_size(); ++i) series(i);
@@ -47,8 +48,11 @@ class Expander {
     const std::string path = "series." + std::to_string(index);
     Draft base{
         .name = "", .scene = series.scene().empty() ? "scene" : path + ".scene", .set = {}, .is_long = series.long_()};
+    const bool full = fidelity_ == Fidelity::full;
     append(base.set, plan_.study.set(), "set");
+    if (full) append(base.set, plan_.study.full(), "full");
     append(base.set, series.set(), path + ".set");
+    if (full) append(base.set, series.full(), path + ".full");
     unique(series_names_, slug(series.name()), path + ".name", "series", series.name());
     point_names_.clear();
     for (int i = 0; i < series.points_size(); ++i) {
@@ -156,6 +160,7 @@ class Expander {
   }
 
   Plan& plan_;
+  Fidelity fidelity_;
   Complaints& complaints_;
   std::set<std::string> series_names_;
   std::set<std::string> point_names_;
@@ -178,12 +183,12 @@ std::string slug(const std::string& name) {
   return out.substr(0, 120);
 }
 
-Plan load_plan(const fs::path& file) {
+Plan load_plan(const fs::path& file, Fidelity fidelity) {
   Plan plan;
   plan.file = file;
   plan.tree = scene::load(file, {}, plan.study);
   Complaints complaints;
-  Expander(plan, complaints).all();
+  Expander(plan, fidelity, complaints).all();
   complaints.throw_if_any();
   check_names(plan, complaints);
   complaints.throw_if_any();

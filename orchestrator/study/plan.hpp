@@ -30,8 +30,13 @@ struct Plan {
   std::vector<PlannedPoint> points;
 };
 
+enum class Fidelity {
+  recommended,  ///< the study as it stands
+  full          ///< with its `full` overrides
+};
+
 /// Reads the study and prepares all of its points. @throws InputError with everything that is wrong, one line each.
-[[nodiscard]] Plan load_plan(const std::filesystem::path& file);
+[[nodiscard]] Plan load_plan(const std::filesystem::path& file, Fidelity fidelity = Fidelity::recommended);
 
 /// A directory's name that reads like `name`: letters, digits, '.', '_', '+', '=' and '-'.
 [[nodiscard]] std::string slug(const std::string& name);

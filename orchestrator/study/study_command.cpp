@@ -40,7 +40,8 @@ class Lock {
 };
 
 fs::path root_of(const StudyOptions& options) {
-  return (options.out.empty() ? fs::path("runs") / "studies" / options.study.stem() : options.out).lexically_normal();
+  const std::string name = options.study.stem().string() + (options.full ? "-full" : "");
+  return (options.out.empty() ? fs::path("runs") / "studies" / name : options.out).lexically_normal();
 }
 
 /// `repeat` opens what is done already; runs of other studies stay theirs.
@@ -126,7 +127,7 @@ int exit_code(const Report& report, bool whole) {
 }  // namespace
 
 int study(const StudyOptions& options) {
-  const Plan plan = load_plan(options.study);
+  const Plan plan = load_plan(options.study, options.full ? Fidelity::full : Fidelity::recommended);
   const fs::path root = root_of(options);
   std::vector<Outcome> outcomes = locate(plan, root, options.reuse);
   choose(plan, options, root, outcomes);
@@ -148,7 +149,8 @@ int study(const StudyOptions& options) {
   write_tables(report, root);
   if (plan.study.plots_size() > 0 && whole) draw(root);
   if (!options.page.empty() && whole)
-    write_page(report, root, options.page, "grainstep study " + options.study.string());
+    write_page(report, root, options.page,
+               "grainstep study " + options.study.string() + (options.full ? " --full" : ""));
   if (!options.quiet) conclude(report, root);
   return exit_code(report, whole);
 }

@@ -56,6 +56,26 @@ TEST(Expression, NamesAndListsItemByItem) {
   EXPECT_EQ(number("interpolate(w, t, 0)", given), 1);
   EXPECT_TRUE(std::isnan(number("interpolate(w, t, 3.1)", given)));
   EXPECT_THAT(Expression("differences(w)").evaluate(given), ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(Expression("middles(w)").evaluate(given), ::testing::ElementsAre(1.5, 3));
+  EXPECT_THAT(Expression("interpolate(w, t, grid(0, 3, 4))").evaluate(given), ::testing::ElementsAre(1, 2, 3, 4));
+}
+
+TEST(Expression, WhenALevelIsReached) {
+  Given given;
+  given.values = {{"t", {1, 2, 3, 4}}, {"y", {-1, 0, 4, 2}}};
+  EXPECT_EQ(number("reached(y, t, 3)", given), 2.75);
+  EXPECT_EQ(number("reached(y, t, -2)", given), 1);
+  EXPECT_TRUE(std::isnan(number("reached(y, t, 4.1)", given)));
+}
+
+/// The mean rate over every interval of a grid, exactly, from a quantity that was summed up at other times.
+TEST(Expression, RatesOverIntervalsOfAGrid) {
+  Given given;
+  given.values = {{"t", {0, 0.7, 1.1, 2}}, {"impulse", {0, 1.4, 2.2, 2.2}}};
+  const Values rates = Expression("differences(interpolate(impulse, t, grid(0, 2, 3)))").evaluate(given);
+  EXPECT_THAT(rates, ::testing::ElementsAre(::testing::DoubleEq(2.0), ::testing::DoubleNear(0.2, 1e-14)));
+  EXPECT_THAT(Expression("grid(0.1, 0.3, 2)").evaluate(given), ::testing::ElementsAre(0.1, 0.3));
+  EXPECT_THAT(error("max(grid(0, 1, 1))"), ::testing::HasSubstr("expected 2 to"));
 }
 
 TEST(Expression, OrderIsTheSlopeOfTheLogarithms) {
@@ -71,6 +91,13 @@ TEST(Expression, RowOfAnInterval) {
   EXPECT_THAT(Expression("row(table, from, 0.15)").evaluate(given), ::testing::ElementsAre(3, 4));
   EXPECT_THAT(Expression("row(table, from, 0)").evaluate(given), ::testing::ElementsAre(1, 2));
   EXPECT_THAT(Expression("row(table, from, -1)").evaluate(given), ::testing::IsEmpty());
+}
+
+TEST(Expression, IntegralOverTimeOfEveryColumn) {
+  Given given;
+  given.values = {{"table", {1, 2, 3, 4}}, {"from", {0, 1}}, {"to", {1, 3}}, {"x", {1, 2, 3}}};
+  EXPECT_THAT(Expression("over_time(table, from, to)").evaluate(given), ::testing::ElementsAre(7, 10));
+  EXPECT_THAT(error("max(over_time(x, from, to))", given), ::testing::HasSubstr("one row per interval"));
 }
 
 TEST(Expression, OtherPlacesAreNamedAsTheyAreWritten) {

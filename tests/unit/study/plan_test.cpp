@@ -43,6 +43,26 @@ series:
   EXPECT_GT(plan.points[4].estimate, plan.points[3].estimate);
 }
 
+TEST(Plan, FullFidelityAddsOverrides) {
+  const StudyFiles files;
+  const std::string text = R"(title: T
+scene: scene.yaml
+full: ["structure.mesh.refinement=4"]
+series:
+  - { name: a }
+  - { name: b, full: ["structure.mesh.refinement=3"] }
+  - { name: c, set: ["structure.mesh.refinement=1"] }
+)";
+  const auto meshes = [&](Fidelity fidelity) {
+    std::vector<double> out;
+    for (const PlannedPoint& point : load_plan(files.write("study.yaml", text), fidelity).points)
+      out.push_back(point.preparation.scene.structure().mesh().refinement());
+    return out;
+  };
+  EXPECT_THAT(meshes(Fidelity::recommended), ElementsAre(2, 2, 1));
+  EXPECT_THAT(meshes(Fidelity::full), ElementsAre(4, 3, 1));
+}
+
 TEST(Plan, ScenesAreRelativeToTheFileThatNamesThem) {
   const StudyFiles files;
   files.write("deep/other.yaml", "include: ../scene.yaml\nimpactor: { slug: { seed: 9 } }\n");

@@ -120,7 +120,7 @@ TEST_F(ReportTest, ThePageSaysWhatIsStatedAndWhatCameOut) {
   EXPECT_THAT(page, HasSubstr("| p, early\\|late |"));
   EXPECT_THAT(page, HasSubstr("far (needs --long, not run)"));
   EXPECT_THAT(page, HasSubstr("bad (failed: because)"));
-  EXPECT_THAT(page, HasSubstr("`grainstep study x.yaml`"));
+  EXPECT_THAT(page, HasSubstr("Made by `grainstep study x.yaml`: 3 runs, "));
 }
 
 }  // namespace
