@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <memory>
+#include <string>
 
 #include "scene/declaration.hpp"
 #include "scene/load.hpp"
@@ -59,21 +60,30 @@ bool same(const Message& one, const Message& other, const FieldDescriptor& field
   return only(one) == only(other);
 }
 
-void drop_defaults(Message& message) {
+/// Adds to `zeros` what Protobuf does not write although it is not the default: numbers that are 0 where the default is
+/// another one.
+void drop_defaults(Message& message, const std::string& path, std::string& zeros) {
   const auto& reflection = *message.GetReflection();
   const std::unique_ptr<Message> defaults = defaults_of(message);
   std::vector<const FieldDescriptor*> set;
+  reflection.ListFields(*defaults, &set);
+  for (const FieldDescriptor* field : set) {
+    const bool is_number = !field->has_presence() && !field->is_repeated();
+    if (is_number && !reflection.HasField(message, field)) zeros += path + field->name() + ";";
+  }
+  set.clear();
   reflection.ListFields(message, &set);
   for (const FieldDescriptor* field : set) {
     if (!is_section(*field)) {
       if (same(message, *defaults, *field)) reflection.ClearField(&message, field);
     } else if (field->is_repeated()) {
       for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
-        drop_defaults(*reflection.MutableRepeatedMessage(&message, field, i));
+        drop_defaults(*reflection.MutableRepeatedMessage(&message, field, i),
+                      path + field->name() + "." + std::to_string(i) + ".", zeros);
       }
     } else {
       Message& part = *reflection.MutableMessage(&message, field);
-      drop_defaults(part);
+      drop_defaults(part, path + field->name() + ".", zeros);
       if (part.ByteSizeLong() == 0 && key_of(*field).default_value() == "{}") reflection.ClearField(&message, field);
     }
   }
@@ -86,8 +96,10 @@ std::uint64_t scene_hash(const Scene& scene) { return hash_of(scene); }
 std::uint64_t essence_hash(const Scene& scene) {
   Scene essence = scene;
   essence.clear_title();
-  drop_defaults(essence);
-  return hash_of(essence);
+  std::string zeros;
+  drop_defaults(essence, "", zeros);
+  const std::string bytes = serialised(essence) + zeros;
+  return XXH3_64bits(bytes.data(), bytes.size());
 }
 
 }  // namespace grainstep::scene

@@ -3,6 +3,8 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "scene_files.hpp"
 
 namespace grainstep::scene {
@@ -120,6 +122,16 @@ TEST(EssenceHash, EverythingElseDoes) {
         "structure.layers.0.density=8.1 g/cm3", "structure.layers.1={material: elastic, thickness: 1 mm}",
         "impactor.slug.surface_contact.friction=0.7", "structure.extent=full"}) {
     EXPECT_NE(plain, essence_hash(load_text(minimal_scene, {change}))) << change;
+  }
+}
+
+// Protobuf writes no 0, whatever the default is.
+TEST(EssenceHash, ZeroIsNotADefaultThatIsNotZero) {
+  std::set<std::uint64_t> seen = {essence_hash(load_text(minimal_scene))};
+  for (const char* change :
+       {"impactor.slug.particle.friction=0", "impactor.slug.seed=0", "structure.layers.0.rate_factor=0",
+        "structure.core.shock_width=0", "output.snapshots=0", "output.profiles=0"}) {
+    EXPECT_TRUE(seen.insert(essence_hash(load_text(minimal_scene, {change}))).second) << change;
   }
 }
 
