@@ -50,7 +50,7 @@ std::string stated(const Report& report) {
     if (verdict.wanted.empty()) continue;
     out += "| " + escaped(finding.statement()) + " | " + escaped(finding.source()) + " | " + verdict.wanted + " | " +
            with_unit(figure(verdict.value, 4), finding.unit()) + " | " + difference(finding, verdict) + " | " +
-           state_name(verdict.state) + " |\n";
+           (verdict.state == Verdict::State::fails ? "**does not hold**" : state_name(verdict.state)) + " |\n";
     if (!finding.reason().empty()) reasons += "- " + finding.statement() + ": " + finding.reason() + "\n";
   }
   return out + (reasons.empty() ? "" : "\n" + reasons) + "\n";
