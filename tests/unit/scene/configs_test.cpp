@@ -20,7 +20,8 @@ std::vector<fs::path> scenes(bool invalid) {
   std::vector<fs::path> found;
   for (const auto& entry : fs::recursive_directory_iterator(configs)) {
     const bool is_invalid = entry.path().parent_path().filename() == "invalid";
-    if (entry.path().parent_path().filename() == "studies") continue;  // orchestrator/study's tests load those
+    if (entry.path().string().starts_with((configs / "studies").string()))
+      continue;  // orchestrator/study's tests load those
     if (entry.path().extension() == ".yaml" && is_invalid == invalid) found.push_back(entry.path());
   }
   std::sort(found.begin(), found.end());
