@@ -4,7 +4,7 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages build demo test test-long verify sanitize bench accuracy docs clean
+.PHONY: help packages build demo test test-long verify sanitize bench accuracy figures docs clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -15,6 +15,7 @@ help:
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
 	@echo "make bench     the speed table of bench/README.md"
 	@echo "make accuracy  speed against error again, with quiet timings: docs/accuracy.md and what check recommends (half an hour)"
+	@echo "make figures   the paper's two-dimensional figures again: docs/benchmarks (half an hour; finished runs are kept)"
 	@echo "make docs      regenerate the generated pages of docs/"
 
 packages:
@@ -67,6 +68,15 @@ accuracy: build
 	@$(BUILD)/bin/grainstep study configs/studies/speed-error.yaml --out $(ACCURACY) --jobs 1 $(ACCURACY_REPEAT) $(ACCURACY_OPTIONS) \
 	  --page docs/accuracy.md
 	@cp $(ACCURACY)/series.csv orchestrator/fidelity.csv
+
+# The paper's figures. A statement that does not hold (exit code 3) is a result; anything else stops.
+FIGURES := fig04 fig06 fig07 fig08 fig09 fig11 fig12 fig13 fig14 figA1 figA2 contact
+figures: build
+	@mkdir -p runs/studies
+	@for figure in $(FIGURES); do \
+	  $(BUILD)/bin/grainstep study configs/studies/liu2013-$$figure.yaml --reuse runs/studies $(FIGURES_OPTIONS) \
+	    --page docs/benchmarks/$$figure.md || [ $$? -eq 3 ] || exit 1; \
+	done
 
 docs: build
 	@$(BUILD)/bin/grainstep-docs docs/user
