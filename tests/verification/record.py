@@ -53,7 +53,8 @@ class Series:
 def check(test, comparison):
     """Expects the comparison to hold, in unittest.TestCase `test`, and records it. Later checks of the test still run."""
     record = dataclasses.asdict(comparison)
-    record.update(expected=float(comparison.expected), found=_json_number(comparison.found), passed=comparison.passed)
+    record.update(expected=float(comparison.expected), found=_json_number(comparison.found),
+                  passed=bool(comparison.passed))
     _append(test, record)
     with test.subTest(case=comparison.name, quantity=comparison.quantity):
         test.assertTrue(comparison.passed, f"{comparison}, allowed {comparison.allowed}")
