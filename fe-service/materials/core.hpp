@@ -1,7 +1,7 @@
 /// @file Sandwich core, equations (3.4) to (3.9): isotropic elasticity and uncoupled viscoplastic strains of the stress
 /// components in the material frame (2: transverse), here the four that plane strain leaves: 11, 22, 33 and shear 12.
 ///     ep_dot_i = (|s_i| - Y_i)/eta  if |s_i| > Y_i, else 0, with the sign of s_i                              (3.6)
-/// All Y_i = sigma_c, but transversely in compression
+/// All Y_i = sigma_c (an option gives shear another one), but transversely in compression
 ///     Y_2 = sigma_c + E_t max(0, c - c_D),  c = -ep_2, the compaction (logarithmic; it falls when the core is pulled
 ///     open).
 /// (3.9) gives densification as a nominal strain eps_D. Our choice: c_D = -ln(1 - eps_D); the literal c_D = eps_D is an
@@ -24,6 +24,7 @@ struct Core {
   double densified;  ///< c_D, logarithmic
   double tangent;    ///< E_t, Pa
   double viscosity;  ///< eta, Pa s
+  double shear;      ///< strength in shear, Pa
 };
 
 /// Of the stress, relative.
@@ -60,7 +61,7 @@ GS_ALWAYS_INLINE double transverse_increment(const Core& law, double s, double c
 
 /// Shear is coupled to nothing.
 GS_ALWAYS_INLINE double shear_increment(const Core& law, double trial, double drag) {
-  return beyond(trial, law.strength) / (law.elastic.mu + drag);
+  return beyond(trial, law.shear) / (law.elastic.mu + drag);
 }
 
 /// One sweep over the normal components; `drag` = eta/dt. Returns the largest change, as a stress.
@@ -86,7 +87,7 @@ GS_ALWAYS_INLINE double core_overshoot(const Core& law, const Stress& trial, dou
   const double transverse = law.strength + densified_strength(law, compaction);
   const double xx = std::abs(trial.xx) - law.strength;
   const double zz = std::abs(trial.zz) - law.strength;
-  const double xy = std::abs(trial.xy) - law.strength;
+  const double xy = std::abs(trial.xy) - law.shear;
   const double yy = std::abs(trial.yy) - transverse;
   const double normal = xx > zz ? xx : zz;
   const double other = xy > yy ? xy : yy;

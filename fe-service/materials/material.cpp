@@ -26,10 +26,13 @@ Core make_core(const scene::Structure& structure, int layer) {
     throw InputError(
         fmt::format("structure.layers[{}]: a core needs structure.core.normalised_strength and a viscosity", layer));
   }
+  const double strength = keys.normalised_strength() * relative_density * face.yield_strength();
   return {Elastic::from_young(relative_density * face.young(), keys.poisson(), core.density()),
-          keys.normalised_strength() * relative_density * face.yield_strength(),
+          strength,
           keys.densification() == scene::Core::DENSIFICATION_LITERAL ? densified : -std::log(1.0 - densified),
-          keys.densified_slope() * face.young(), core.viscosity()};
+          keys.densified_slope() * face.young(),
+          core.viscosity(),
+          keys.shear_ratio() * strength};
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using verification::check;
 
 /// rho_c/rho_m = 0.1, s_c = 0.11.
 Core make_law(double poisson, double viscosity) {
-  return {Elastic::from_young(20e9, poisson, 800.0), 0.011 * 470e6, -std::log(0.15), 20e9, viscosity};
+  return {Elastic::from_young(20e9, poisson, 800.0), 0.011 * 470e6, -std::log(0.15), 20e9, viscosity, 0.011 * 470e6};
 }
 
 // ---- shock ----------------------------------------------------------------------------------------------------------
