@@ -13,47 +13,68 @@
 namespace grainstep::dem {
 namespace {
 
+using surface::Vec;
 using surface::Vec2;
+using surface::Vec3;
 
-/// Cells so small (diameter/sqrt(2)) that each holds at most one centre.
+/// Cells so small (diameter/sqrt(N)) that each holds at most one centre.
+template <std::size_t N>
 class Cells {
  public:
-  Cells(const PackingBox& box, double diameter)
-      : low_(box.low), size_(diameter / std::numbers::sqrt2), diameter_(diameter) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      count_[axis] = static_cast<std::int64_t>((box.high[axis] - box.low[axis]) / size_) + 1;
+  Cells(const Vec<N>& low, const Vec<N>& high, double diameter)
+      : low_(low), size_(diameter / std::sqrt(static_cast<double>(N))), diameter_(diameter) {
+    std::int64_t cells = 1;
+    for (std::size_t axis = 0; axis < N; ++axis) {
+      count_[axis] = static_cast<std::int64_t>((high[axis] - low[axis]) / size_) + 1;
+      cells *= count_[axis];
     }
-    taken_.assign(static_cast<std::size_t>(count_[0] * count_[1]), vacant);
+    taken_.assign(static_cast<std::size_t>(cells), vacant);
   }
 
   /// Takes the place if no centre is closer than the diameter.
-  bool take(const Vec2& p, std::vector<Vec2>& centres) {
-    const std::int64_t column = cell(p, 0);
-    const std::int64_t row = cell(p, 1);
-    for (std::int64_t r = std::max<std::int64_t>(0, row - 2); r <= std::min(row + 2, count_[1] - 1); ++r) {
-      for (std::int64_t c = std::max<std::int64_t>(0, column - 2); c <= std::min(column + 2, count_[0] - 1); ++c) {
-        const std::uint32_t other = taken_[static_cast<std::size_t>(r * count_[0] + c)];
-        if (other == vacant) continue;
-        const Vec2 apart = centres[other] - p;
-        if (dot(apart, apart) < diameter_ * diameter_) return false;
-      }
+  bool take(const Vec<N>& p, std::vector<Vec<N>>& centres) {
+    Numbers own;
+    Numbers from;
+    Numbers to;
+    for (std::size_t axis = 0; axis < N; ++axis) {
+      own[axis] = std::min(static_cast<std::int64_t>((p[axis] - low_[axis]) / size_), count_[axis] - 1);
+      from[axis] = std::max<std::int64_t>(0, own[axis] - 2);
+      to[axis] = std::min(own[axis] + 2, count_[axis] - 1);
     }
-    taken_[static_cast<std::size_t>(row * count_[0] + column)] = static_cast<std::uint32_t>(centres.size());
+    Numbers at = from;
+    do {
+      const std::uint32_t other = taken_[index(at)];
+      if (other == vacant) continue;
+      const Vec<N> apart = centres[other] - p;
+      if (dot(apart, apart) < diameter_ * diameter_) return false;
+    } while (next(at, from, to));
+    taken_[index(own)] = static_cast<std::uint32_t>(centres.size());
     centres.push_back(p);
     return true;
   }
 
  private:
+  using Numbers = std::array<std::int64_t, N>;
   static constexpr std::uint32_t vacant = std::numeric_limits<std::uint32_t>::max();
 
-  [[nodiscard]] std::int64_t cell(const Vec2& p, std::size_t axis) const {
-    return std::min(static_cast<std::int64_t>((p[axis] - low_[axis]) / size_), count_[axis] - 1);
+  [[nodiscard]] std::size_t index(const Numbers& at) const {
+    std::int64_t number = at[N - 1];
+    for (std::size_t axis = N - 1; axis-- > 0;) number = number * count_[axis] + at[axis];
+    return static_cast<std::size_t>(number);
   }
 
-  Vec2 low_;
+  static bool next(Numbers& at, const Numbers& from, const Numbers& to) {
+    for (std::size_t axis = 0; axis < N; ++axis) {
+      if (++at[axis] <= to[axis]) return true;
+      at[axis] = from[axis];
+    }
+    return false;
+  }
+
+  Vec<N> low_;
   double size_;
   double diameter_;
-  std::array<std::int64_t, 2> count_{};
+  Numbers count_{};
   std::vector<std::uint32_t> taken_;
 };
 
@@ -64,13 +85,39 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 /// thousand discs, three seeds). 3000 each leave room; a slug of few discs gets some more. Beyond that it has jammed.
 std::uint64_t attempt_budget(std::uint64_t count) { return 100000 + 3000 * count; }
 
+/// What was asked for and what has become of it, for the message.
+struct Jam {
+  std::uint64_t asked = 0, placed = 0;
+  double fraction_of_one = 0.0;
+  double limit = 0.0;
+};
+
+[[noreturn]] void refuse(const Jam& jam) {
+  std::ostringstream text;
+  text << "impactor.slug.relative_density: " << jam.asked << " particles asked for, but after "
+       << attempt_budget(jam.asked) << " attempts only " << jam.placed << " found a place (solid fraction "
+       << static_cast<double>(jam.placed) * jam.fraction_of_one << "): random sequential addition jams near "
+       << jam.limit << ", less in a narrow slug; choose a smaller fraction or diameter";
+  throw InputError(text.str());
+}
+
+/// 0 .. count-1 in a random order.
+std::vector<std::uint32_t> shuffled(std::uint64_t count, std::mt19937_64& random) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  for (std::uint64_t left = count; left > 1; --left) {
+    std::swap(order[left - 1], order[static_cast<std::uint64_t>(uniform(random) * static_cast<double>(left))]);
+  }
+  return order;
+}
+
 }  // namespace
 
 std::vector<Vec2> pack_at_random(const PackingBox& box, std::uint64_t count, double diameter, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<Vec2> centres;
   centres.reserve(count);
-  Cells cells(box, diameter);
+  Cells<2> cells(box.low, box.high, diameter);
   const Vec2 size = box.high - box.low;
   const std::uint64_t budget = attempt_budget(count);
   for (std::uint64_t attempt = 0; attempt < budget && centres.size() < count; ++attempt) {
@@ -81,13 +128,37 @@ std::vector<Vec2> pack_at_random(const PackingBox& box, std::uint64_t count, dou
   if (centres.size() < count) {
     const double area = (size[0] + diameter) * (size[1] + diameter);
     const double section = std::numbers::pi * diameter * diameter / 4.0;
-    std::ostringstream text;
-    text << "impactor.slug.relative_density: " << count << " particles asked for, but after " << budget
-         << " attempts only " << centres.size() << " found a place (solid fraction "
-         << static_cast<double>(centres.size()) * section / area
-         << "): random sequential addition jams near 0.547, less in a narrow slug; choose a smaller fraction or "
-            "diameter";
-    throw InputError(text.str());
+    refuse({count, centres.size(), section / area, 0.547});
+  }
+  return centres;
+}
+
+double PackingSlice::inner() const { return wall_gap / std::sin(0.5 * angle); }
+
+std::vector<Vec3> pack_at_random(const PackingSlice& slice, std::uint64_t count, double diameter, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Vec3> centres;
+  centres.reserve(count);
+  const double inner2 = slice.inner() * slice.inner();
+  const double ring = (slice.outer * slice.outer - inner2) / static_cast<double>(count);
+  const double left = slice.outer * std::min(0.0, std::cos(slice.angle));
+  const double widest = slice.outer * (slice.angle < 0.5 * std::numbers::pi ? std::sin(slice.angle) : 1.0);
+  Cells<3> cells({{left, slice.low, 0.0}}, {{slice.outer, slice.high, widest}}, diameter);
+  const std::vector<std::uint32_t> rings = shuffled(count, random);
+  const std::uint64_t budget = attempt_budget(count);
+  for (std::uint64_t attempt = 0; attempt < budget && centres.size() < count; ++attempt) {
+    // The place is drawn anew until it is vacant, but stays in its ring.
+    const double r = std::sqrt(inner2 + (rings[centres.size()] + uniform(random)) * ring);
+    const double along = uniform(random);
+    const double across = uniform(random);
+    const double margin = std::asin(std::min(1.0, slice.wall_gap / r));
+    const double theta = margin + across * std::max(0.0, slice.angle - 2.0 * margin);
+    cells.take({{r * std::cos(theta), slice.low + along * (slice.high - slice.low), r * std::sin(theta)}}, centres);
+  }
+  if (centres.size() < count) {
+    const double radius = slice.outer + 0.5 * diameter;
+    const double volume = 0.5 * slice.angle * radius * radius * (slice.high - slice.low + diameter);
+    refuse({count, centres.size(), std::numbers::pi / 6.0 * diameter * diameter * diameter / volume, 0.382});
   }
   return centres;
 }

@@ -7,7 +7,7 @@ namespace grainstep::dem {
 using contact::Branch;
 using contact::branch_along;
 using contact::NormalForce;
-using surface::Vec3;
+using contact::vector_of;
 
 void PlaneContacts::rebuild(const ParticleArrays& particles) {
   candidates_.clear();
@@ -24,28 +24,28 @@ void PlaneContacts::evaluate(const ParticleArrays& particles) {
   for (const int i : candidates_) {
     const double radius = particles.radius[i];
     const double gap = distance(particles, i);
-    const double overlap = times * (radius - gap);
+    const double overlap = times * (plane_.reach * radius - gap);
     if (overlap <= 0.0) continue;
-    const Branch branch = branch_along({{plane_.inward, 0.0, 0.0}}, times * gap, radius);
-    const Vec3 relative{{times * particles.velocity[i][0], 0.0, 0.0}};
+    const Branch branch = branch_along(plane_.inward, times * gap, radius);
+    const Vec3 relative = times * vector_of(particles.velocity[i]);
     const NormalForce push = normal_force(law_, branch, overlap, relative, particles.mass[i] / times);
     stored_ += 0.5 * law_.normal_stiffness * overlap * overlap / times;
     largest_overlap_ = std::max(largest_overlap_, overlap / (2.0 * radius));
-    contacts_.push_back({i, push.total() * branch.vector[0], push.dashpot * branch.vector[0]});
+    contacts_.push_back({i, push.total() * branch.vector, push.dashpot * branch.vector});
   }
 }
 
 void PlaneContacts::apply(const ParticleArrays& particles) const {
-  for (const Contact& contact : contacts_) particles.force[contact.particle][0] += contact.total;
+  for (const Contact& one : contacts_) contact::add_to(particles.force[one.particle], one.total);
 }
 
 void PlaneContacts::end_interval(const ParticleArrays& particles, double dt) {
   ParticleSide side;
   for (const Contact& contact : contacts_) {
-    const double velocity = particles.velocity[contact.particle][0];
-    side.force[0] += contact.total;
-    side.power += contact.total * velocity;
-    side.dashpot += contact.dashpot * velocity;
+    const Vec3 velocity = vector_of(particles.velocity[contact.particle]);
+    side.force += contact.total;
+    side.power += dot(contact.total, velocity);
+    side.dashpot += dot(contact.dashpot, velocity);
   }
   particle_side_ = side;
   ledger_.add(dt / 2.0, particle_side_, {});

@@ -1,7 +1,7 @@
-/// @file Frictionless rigid planes across x1 that no structure carries: the mirror plane of a half model, and the walls
-/// that confine a slug to its strip. A particle at a mirror touches its own image: overlap 2(R - x1), effective mass
-/// m/2; the pair's energy is shared with the image, half of it is counted here. At a wall it moves alone: overlap R -
-/// distance, m_eff = m.
+/// @file Frictionless rigid planes that no structure carries: the mirror plane of a half model, the walls that confine
+/// a slug to its strip, and those between which a slice of a slug moves. A particle at a mirror touches its own image:
+/// overlap 2(R - distance), effective mass m/2; the pair's energy is shared with the image, half of it is counted here.
+/// At a wall it moves alone: overlap R - distance, m_eff = m.
 #pragma once
 
 #include <utility>
@@ -17,12 +17,14 @@ using contact::ContactLaw;
 using contact::InterfaceLedger;
 using contact::ParticleArrays;
 using contact::ParticleSide;
+using surface::Vec3;
 
 struct Plane {
   enum class Kind { mirror, wall };
   Kind kind = Kind::wall;
-  double position = 0.0;  ///< m, x1
-  double inward = 1.0;    ///< +1: particles are at larger x1; -1: at smaller
+  Vec3 inward{{1.0, 0.0, 0.0}};  ///< unit normal, towards the particles
+  double position = 0.0;         ///< m, of the plane along it
+  double reach = 1.0;            ///< of a radius: a centre nearer than that touches
 };
 
 class PlaneContacts {
@@ -46,10 +48,10 @@ class PlaneContacts {
  private:
   struct Contact {
     int particle;
-    double total, dashpot;  ///< N, along x1
+    Vec3 total, dashpot;  ///< N
   };
   [[nodiscard]] double distance(const ParticleArrays& particles, int i) const {
-    return plane_.inward * (particles.position[i][0] - plane_.position);
+    return dot(plane_.inward, contact::vector_of(particles.position[i])) - plane_.position;
   }
 
   Plane plane_;

@@ -55,8 +55,8 @@ void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) 
   if (particles.size() > std::numeric_limits<int>::max()) throw InputError("impactor.slug: more than 2^31 particles");
   const int count = static_cast<int>(particles.size());
   const double room = 2.0 * model_.diameter;
-  surface::Vec2 low = particles.front().position;
-  surface::Vec2 high = low;
+  surface::Vec3 low = particles.front().position;
+  surface::Vec3 high = low;
   std::vector<int> identity(particles.size());
   std::vector<int> type(particles.size(), 1);
   std::vector<double> position;
@@ -64,9 +64,9 @@ void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) 
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const PlacedParticle& particle = particles[i];
     identity[i] = static_cast<int>(i + 1);
-    position.insert(position.end(), {particle.position[0], particle.position[1], 0.0});
-    velocity.insert(velocity.end(), {particle.velocity[0], particle.velocity[1], 0.0});
-    for (std::size_t c = 0; c < 2; ++c) {
+    position.insert(position.end(), particle.position.c.begin(), particle.position.c.end());
+    velocity.insert(velocity.end(), particle.velocity.c.begin(), particle.velocity.c.end());
+    for (std::size_t c = 0; c < 3; ++c) {
       low[c] = std::min(low[c], particle.position[c]);
       high[c] = std::max(high[c], particle.position[c]);
     }
@@ -74,12 +74,14 @@ void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) 
   // The box grows with the particles, but never gets smaller than it is now: LAMMPS refuses one much thinner than the
   // neighbour cutoff, which a single row of particles would make. Ranks share it along x1, so that all have their part
   // of the front.
-  for (const char* line : {"units si", "atom_style sphere", "dimension 2", "newton on", "boundary m m p",
-                           "comm_modify vel yes", "processors * 1 1"}) {
+  const bool spheres = model_.spheres();
+  for (const char* line : {"units si", "atom_style sphere", spheres ? "dimension 3" : "dimension 2", "newton on",
+                           spheres ? "boundary m m m" : "boundary m m p", "comm_modify vel yes", "processors * 1 1"}) {
     session_.command(line);
   }
+  const double beside = spheres ? room : room / 2.0;
   session_.command(text_of("region slug block %.17g %.17g %.17g %.17g %.17g %.17g units box", low[0] - room,
-                           high[0] + room, low[1] - room, high[1] + room, -room / 2.0, room / 2.0));
+                           high[0] + room, low[1] - room, high[1] + room, low[2] - beside, high[2] + beside));
   session_.command("create_box 1 slug");
   lammps_create_atoms(session_.handle(), count, identity.data(), type.data(), position.data(), velocity.data(), nullptr,
                       0);
@@ -99,7 +101,7 @@ void SlugEngine::set_laws(const ContactLaw& pair, double dt, double skin) {
   session_.command(text_of("neighbor %.17g bin", skin));
   session_.command(text_of("neigh_modify delay 0 every 1 check yes binsize %.17g", model_.diameter + skin));
   session_.command(text_of("timestep %.17g", dt));
-  session_.command("fix motion all nve/sphere disc");
+  session_.command(model_.spheres() ? "fix motion all nve/sphere" : "fix motion all nve/sphere disc");
   int ranks = 1;
   MPI_Comm_size(communicator_, &ranks);
   if (ranks > 1) session_.command("fix shares all balance 500 1.1 shift x 10 1.05");

@@ -12,28 +12,40 @@
 namespace grainstep::dem {
 namespace {
 
+constexpr double most_slice = 0.5 * std::numbers::pi + 1e-9;        // rad: a quarter of the circle
 constexpr double most_particles = std::numeric_limits<int>::max();  // LAMMPS's own numbers of particles
 
-void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
-  std::ostringstream text;
-  const scene::Slug& slug = impactor.slug();
-  const double diameter = slug.particle().diameter();
-  if (impactor.type() != scene::Impactor::TYPE_SLUG) {
-    text << "impactor.type: grainstep-dem computes a slug, not " << scene::Impactor::Type_Name(impactor.type());
-  } else if (symmetry != scene::SYMMETRY_PLANE_STRAIN) {
-    text << "symmetry: grainstep-dem computes plane_strain, not " << scene::Symmetry_Name(symmetry);
-  } else if (!(depth > 0.0)) {
+void check_particle(const scene::Particle& particle, std::ostringstream& text) {
+  if (particle.diameter() > 0.0 && particle.density() > 0.0 && particle.normal_stiffness() > 0.0) return;
+  text << "impactor.slug.particle: diameter, density and normal_stiffness must be above 0, found "
+       << particle.diameter() << " m, " << particle.density() << " kg/m^3, " << particle.normal_stiffness() << " N/m";
+}
+
+void check_slice(const scene::Slug& slug, std::ostringstream& text) {
+  if (!(slug.slice_angle() > 0.0) || slug.slice_angle() > most_slice) {
+    text << "impactor.slug.slice_angle: found " << slug.slice_angle() << " rad, expected above 0 and up to "
+         << most_slice;
+  } else if (slug.relative_density() > densest_random_packing_of_spheres) {
+    text << "impactor.slug.relative_density: found " << slug.relative_density()
+         << ", but random sequential addition of spheres jams near 0.382 and is offered up to "
+         << densest_random_packing_of_spheres << ": choose a smaller fraction";
+  } else if (slug.angle() != 0.0 || slug.offset() != 0.0 || slug.confined()) {
+    text << "impactor.slug: angle, offset and confined are for discs in the plane; a slug of revolution comes along "
+            "its axis and spreads freely: leave them out";
+  } else if (2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle()) < 3.0 * slug.particle().diameter()) {
+    text << "impactor.slug.slice_angle: the slice is " << 2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle())
+         << " m wide at the slug's rim, expected at least three particle diameters of " << slug.particle().diameter()
+         << " m: take a wider slice or smaller particles";
+  }
+}
+
+void check_plane(const scene::Slug& slug, double depth, bool mirror, std::ostringstream& text) {
+  if (!(depth > 0.0)) {
     text << "depth: found " << depth << " m, expected more than 0";
-  } else if (!(diameter > 0.0) || !(slug.particle().density() > 0.0) || !(slug.particle().normal_stiffness() > 0.0)) {
-    text << "impactor.slug.particle: diameter, density and normal_stiffness must be above 0, found " << diameter
-         << " m, " << slug.particle().density() << " kg/m^3, " << slug.particle().normal_stiffness() << " N/m";
   } else if (slug.relative_density() > densest_random_packing) {
     text << "impactor.slug.relative_density: found " << slug.relative_density()
          << ", but random sequential addition of discs jams near 0.547 and is offered up to " << densest_random_packing
          << ": choose a smaller fraction";
-  } else if (!(slug.half_width() > diameter) || !(slug.height() > diameter)) {
-    text << "impactor.slug: half_width " << slug.half_width() << " m and height " << slug.height()
-         << " m must exceed the particle diameter, " << diameter << " m";
   } else if (mirror && (slug.angle() != 0.0 || slug.offset() != 0.0)) {
     text << "impactor.slug: angle " << slug.angle() << " and offset " << slug.offset()
          << " m have no mirror image: take structure.extent: full";
@@ -41,7 +53,51 @@ void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double dep
     text << "impactor.slug.confined: the walls stand at |x1| = half_width, the slug must move between them: angle and "
             "offset must be 0";
   }
+}
+
+void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
+  std::ostringstream text;
+  const scene::Slug& slug = impactor.slug();
+  const double diameter = slug.particle().diameter();
+  if (impactor.type() != scene::Impactor::TYPE_SLUG) {
+    text << "impactor.type: grainstep-dem computes a slug, not " << scene::Impactor::Type_Name(impactor.type());
+  } else if (symmetry == scene::SYMMETRY_UNSET) {
+    text << "symmetry: grainstep-dem computes plane_strain and axisymmetric, not " << scene::Symmetry_Name(symmetry);
+  }
+  if (text.str().empty()) check_particle(slug.particle(), text);
+  if (text.str().empty() && (!(slug.half_width() > diameter) || !(slug.height() > diameter))) {
+    text << "impactor.slug: half_width " << slug.half_width() << " m and height " << slug.height()
+         << " m must exceed the particle diameter, " << diameter << " m";
+  }
+  if (text.str().empty()) {
+    if (symmetry == scene::SYMMETRY_AXISYMMETRIC) {
+      check_slice(slug, text);
+    } else {
+      check_plane(slug, depth, mirror, text);
+    }
+  }
   if (!text.str().empty()) throw InputError(text.str());
+}
+
+/// Mass and number of the particles.
+void set_particles(const scene::Particle& particle, double depth, SlugModel& model) {
+  const double d = model.diameter;
+  double solid = std::numbers::pi * d * d / 4.0;
+  double room = (model.mirror ? 1.0 : 2.0) * model.half_width * model.height;
+  if (model.spheres()) {
+    solid = std::numbers::pi * d * d * d / 6.0;
+    room = 0.5 * model.slice * model.half_width * model.half_width * model.height;
+  }
+  model.mass = model.spheres() ? particle.density() * solid : particle.density() * depth * solid;
+  const double particles = std::round(model.relative_density * room / solid);
+  if (!(particles <= most_particles)) {
+    std::ostringstream text;
+    text << "impactor.slug: " << particles << " particles of " << d << " m, but LAMMPS counts up to " << most_particles
+         << ": choose a larger particle.diameter";
+    throw InputError(text.str());
+  }
+  model.particles = static_cast<std::uint64_t>(particles);
+  if (model.particles == 0) throw InputError("impactor.slug.relative_density: so small that no particle is left");
 }
 
 }  // namespace
@@ -58,24 +114,14 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   model.relative_density = slug.relative_density();
   model.seed = slug.seed();
   model.mirror = mirror;
+  if (symmetry == scene::SYMMETRY_AXISYMMETRIC) model.slice = slug.slice_angle();
   model.angle = slug.angle();
   model.offset = slug.offset();
   model.stand_off = slug.stand_off();
   model.tail_speed = slug.has_tail_speed() ? slug.tail_speed() : slug.speed();
   model.confined = slug.confined();
   model.diameter = particle.diameter();
-  const double section = std::numbers::pi * model.diameter * model.diameter / 4.0;
-  model.mass = particle.density() * depth * section;
-  const double width = (mirror ? 1.0 : 2.0) * model.half_width;
-  const double particles = std::round(model.relative_density * width * model.height / section);
-  if (!(particles <= most_particles)) {
-    std::ostringstream text;
-    text << "impactor.slug: " << particles << " particles of " << model.diameter << " m, but LAMMPS counts up to "
-         << most_particles << ": choose a larger particle.diameter";
-    throw InputError(text.str());
-  }
-  model.particles = static_cast<std::uint64_t>(particles);
-  if (model.particles == 0) throw InputError("impactor.slug.relative_density: so small that no particle is left");
+  set_particles(particle, depth, model);
 
   const double kn = particle.normal_stiffness();
   model.pair_law = {kn, kn * particle.tangential_ratio(), 0.0, particle.friction(), false};
@@ -87,7 +133,8 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   model.on_surface = {kn, model.mass, contact.has_restitution() ? contact.restitution() : particle.restitution(),
                       contact.tension_cutoff()};
   model.contact_time = contact_time(model.pair);
-  model.stable_step = largest_stable_step(model.pair, model.pair_law.tangential_stiffness);
+  model.stable_step = largest_stable_step(model.pair, model.pair_law.tangential_stiffness,
+                                          model.spheres() ? neighbours_of_a_sphere : neighbours_of_a_disc);
   model.preferred_step = std::min(model.contact_time / 10.0, model.stable_step);
   return model;
 }
@@ -104,10 +151,10 @@ ContactLaw calibrated_surface_law(const SlugModel& model, double dt) {
   return law;
 }
 
-double largest_stable_step(const Collision& pair, double tangential_stiffness) {
+double largest_stable_step(const Collision& pair, double tangential_stiffness, const Neighbours& neighbours) {
   const double mass = 2.0 * pair.effective_mass;
-  const double stiffest = (6.0 * pair.stiffness + 18.0 * tangential_stiffness) / mass;
-  const double half_rate = 3.0 * continuum_damping(pair);
+  const double stiffest = (neighbours.normal * pair.stiffness + neighbours.tangential * tangential_stiffness) / mass;
+  const double half_rate = neighbours.damping * continuum_damping(pair);
   // Positive root of stiffest dt^2 + 2 half_rate dt = 4, in the form that does not cancel.
   return 4.0 / (half_rate + std::sqrt(half_rate * half_rate + 4.0 * stiffest));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 
 #include "contact/contact_law.hpp"
 #include "dem-service/damping.hpp"
@@ -11,7 +12,12 @@ namespace grainstep::dem {
 
 using contact::ContactLaw;
 
-/// Two-dimensional cylinders of depth b; SI.
+/// A sphere touches the planes of its slice when its centre is nearer than this share of its radius. Between planes
+/// that touch the whole sphere (1) sand packs almost as densely as without them, and the slug is empty only where the
+/// slice is thinner than a sphere; docs/decisions/0011-slices-of-slugs.md has the figures.
+inline constexpr double slice_reach = 1.0;
+
+/// Two-dimensional cylinders of depth b, or spheres in a slice of a cylindrical slug; SI.
 struct SlugModel {
   double half_width = 0.0;
   double height = 0.0;
@@ -19,6 +25,7 @@ struct SlugModel {
   double relative_density = 0.0;
   std::uint64_t seed = 0;
   bool mirror = false;
+  double slice = 0.0;       ///< rad, phi: spheres between rigid planes at theta = 0 and phi; 0: discs in the plane
   double angle = 0.0;       ///< rad, of slug and velocity from the normal
   double offset = 0.0;      ///< m, x1 of the leading face's middle
   double stand_off = 0.0;   ///< m, gap at the start
@@ -26,7 +33,7 @@ struct SlugModel {
   bool confined = false;    ///< by walls at |x1| = half_width
 
   double diameter = 0.0;
-  double mass = 0.0;  ///< of one particle, rho_s b pi D^2/4
+  double mass = 0.0;  ///< of one particle, rho_s b pi D^2/4 or rho_s pi D^3/6
   std::uint64_t particles = 0;
 
   ContactLaw pair_law;           ///< damping_rate is left open: it depends on the step
@@ -38,6 +45,14 @@ struct SlugModel {
   double contact_time = 0.0;    ///< t_e of a pair, continuum (2.4)
   double stable_step = 0.0;     ///< see largest_stable_step()
   double preferred_step = 0.0;  ///< t_e/10, or the stable step where that is smaller
+
+  [[nodiscard]] bool spheres() const { return slice > 0.0; }
+  /// What is modelled of the whole: sums over a slice's particles times this are those of the full circle.
+  [[nodiscard]] double whole() const { return spheres() ? 2.0 * std::numbers::pi / slice : 1.0; }
+  /// Rotational inertia over m R^2.
+  [[nodiscard]] double gyration() const { return spheres() ? 0.4 : 0.5; }
+  /// m: how near a sphere's centre may come to the planes of its slice.
+  [[nodiscard]] double slice_gap() const { return slice_reach * diameter / 2.0; }
 };
 
 /// Throws InputError for what cannot be computed, e.g. a solid fraction above what random packing reaches.
@@ -48,11 +63,21 @@ struct SlugModel {
 [[nodiscard]] ContactLaw calibrated_pair_law(const SlugModel& model, double dt);
 [[nodiscard]] ContactLaw calibrated_surface_law(const SlugModel& model, double dt);
 
-/// A bound on the stable step of densely packed discs, s. Explicit central differences with a dashpot that sees the
+/// What the neighbours of a particle in the densest packing add up to: a mode's frequency and damping rate obey
+/// omega^2 <= (normal Kn + tangential Ks)/m and c <= damping gamma_n.
+struct Neighbours {
+  double normal = 0.0, tangential = 0.0, damping = 0.0;
+};
+/// Six at 60 degrees. A contact adds at most 2 Kn/m along its normal and 6 Ks/m along its tangent (rotation included),
+/// and they add up to three times that in any direction.
+inline constexpr Neighbours neighbours_of_a_disc{6.0, 18.0, 3.0};
+/// Twelve: 2 Kn/m along four times the normals, 7 Ks/m (2 + 2/0.4) along eight times the tangents.
+inline constexpr Neighbours neighbours_of_a_sphere{8.0, 56.0, 4.0};
+
+/// A bound on the stable step of densely packed particles, s. Explicit central differences with a dashpot that sees the
 /// velocity half a step earlier are stable for every mode of frequency omega and damping rate c as long as
-/// (omega dt)^2 + 2 c dt < 4. A disc with its six neighbours has omega^2 <= 6 Kn/m + 18 Ks/m and c <= 3 gamma_n: each
-/// contact adds at most 2 Kn/m along its normal and 6 Ks/m along its tangent (rotation included), and six directions at
-/// 60 degrees add up to three times that in any direction. docs/theory/particles.md has the derivation.
-[[nodiscard]] double largest_stable_step(const Collision& pair, double tangential_stiffness);
+/// (omega dt)^2 + 2 c dt < 4. docs/theory/particles.md has the derivation.
+[[nodiscard]] double largest_stable_step(const Collision& pair, double tangential_stiffness,
+                                         const Neighbours& neighbours = neighbours_of_a_disc);
 
 }  // namespace grainstep::dem

@@ -10,6 +10,7 @@
 #include "contact/surface_contacts.hpp"
 #include "dem-service/pair/contacts.hpp"
 #include "dem-service/plane_contacts.hpp"
+#include "dem-service/slug_model.hpp"
 #include "grainstep/wire.pb.h"
 
 namespace grainstep::dem {
@@ -26,17 +27,18 @@ struct ReportSums {
   double surface_normal = 0.0, surface_tangential = 0.0, plane_stored = 0.0;
   double surface_damping = 0.0, surface_work_tangential = 0.0, plane_damping = 0.0;
   double work_on_particles = 0.0, work_on_surface = 0.0;
-  double momentum[2] = {0.0, 0.0};
-  double surface_impulse[2] = {0.0, 0.0};
-  double plane_impulse[2] = {0.0, 0.0};
+  double momentum[3] = {0.0, 0.0, 0.0};
+  double surface_impulse[3] = {0.0, 0.0, 0.0};
+  double plane_impulse[3] = {0.0, 0.0, 0.0};
   double surface_contacts = 0.0;
+  double radial = 0.0, size = 0.0, around = 0.0, around_work = 0.0;  ///< as contact::InterfaceLedger has them
 };
 
 struct ReportMaxima {
   double overlap = 0.0;
   double speed = 0.0;
   double top = -1e300;     ///< m, highest centre
-  double spread = -1e300;  ///< m, largest x1 of a centre
+  double spread = -1e300;  ///< m, largest x1 (spheres: distance from the axis) of a centre
 };
 
 /// What is dissipated is gone: it may only grow. The energy balance cannot see that, because dissipation is measured
@@ -52,15 +54,18 @@ class DissipationGuard {
 };
 
 /// Kinetic energy, momentum, extent: what needs only the particles. Velocities at t(n).
-void add_particles(const ParticleArrays& particles, ReportSums& sums, ReportMaxima& maxima);
+void add_particles(const SlugModel& model, const ParticleArrays& particles, ReportSums& sums, ReportMaxima& maxima);
 
 /// Collective; the result counts on rank 0.
 [[nodiscard]] ReportSums summed(const ReportSums& sums, MPI_Comm communicator);
 [[nodiscard]] ReportMaxima largest(const ReportMaxima& maxima, MPI_Comm communicator);
 
-void fill_report(const ReportSums& sums, const ReportMaxima& maxima, wire::Report& report);
+/// Of a slice: everything that is a sum, times the full circle over the slice. docs/theory/step.md has what is reported
+/// as momentum along r.
+void fill_report(const SlugModel& model, const ReportSums& sums, const ReportMaxima& maxima, wire::Report& report);
 
 /// Collective; filled on rank 0, in the order of identities, so that it does not depend on the number of ranks.
-void gather_snapshot(const ParticleArrays& particles, MPI_Comm communicator, wire::Snapshot& snapshot);
+void gather_snapshot(const SlugModel& model, const ParticleArrays& particles, MPI_Comm communicator,
+                     wire::Snapshot& snapshot);
 
 }  // namespace grainstep::dem

@@ -1,6 +1,7 @@
 #include "dem-service/step_driver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "participant/schedule.hpp"
@@ -10,6 +11,8 @@ namespace {
 
 SurfaceContactSettings contact_settings(const SlugModel& model, const StepSettings& settings) {
   return {.law = calibrated_surface_law(model, settings.dt),
+          .shape = model.spheres() ? contact::Shape::revolved : contact::Shape::extruded,
+          .whole = model.whole(),
           .lever_is_radius = model.lever_is_radius,
           .largest_radius = model.diameter / 2.0,
           .particle_margin = settings.margin,
@@ -27,22 +30,29 @@ StepDriver::StepDriver(const SlugModel& model, const wire::Start& start, const S
       exchange_(exchange),
       contacts_(contact_settings(model, settings)),
       nodal_(surface_.node_count()) {
-  const ContactLaw image = calibrated_pair_law(model, settings.dt);
-  if (model.mirror) planes_.emplace_back(Plane{Plane::Kind::mirror, 0.0, 1.0}, image, settings.margin);
-  if (!model.confined) return;
+  const auto add = [&](const Plane& plane, const ContactLaw& law) {
+    planes_.emplace_back(plane, law, settings.margin);
+  };
+  if (model.mirror) add({.kind = Plane::Kind::mirror}, calibrated_pair_law(model, settings.dt));
+  if (!model.confined && !model.spheres()) return;
   const ContactLaw wall = calibrated_surface_law(model, settings.dt);
-  planes_.emplace_back(Plane{Plane::Kind::wall, model.half_width, -1.0}, wall, settings.margin);
-  if (!model.mirror) planes_.emplace_back(Plane{Plane::Kind::wall, -model.half_width, 1.0}, wall, settings.margin);
+  if (model.spheres()) {
+    add({.inward = {{0.0, 0.0, 1.0}}, .reach = slice_reach}, wall);
+    add({.inward = {{std::sin(model.slice), 0.0, -std::cos(model.slice)}}, .reach = slice_reach}, wall);
+    return;
+  }
+  add({.inward = {{-1.0, 0.0, 0.0}}, .position = -model.half_width}, wall);
+  if (!model.mirror) add({.inward = {{1.0, 0.0, 0.0}}, .position = -model.half_width}, wall);
 }
 
 void StepDriver::check_speed(const ParticleArrays& particles) {
   for (int i = 0; i < particles.owned; ++i) {
     const double* v = particles.velocity[i];
-    const double way2 = (v[0] * v[0] + v[1] * v[1]) * settings_.dt * settings_.dt;
+    const double way2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) * settings_.dt * settings_.dt;
     if (way2 <= particles.radius[i] * particles.radius[i]) continue;  // false for what is not a number
     std::ostringstream text;
     text << "particle " << particles.identity[i] << " moves more than its radius in one step (velocity " << v[0] << ", "
-         << v[1] << " m/s, step " << settings_.dt
+         << v[1] << ", " << v[2] << " m/s, step " << settings_.dt
          << " s): the computation is unstable; take shorter steps (steps.impactor)";
     exchange_.fail(text.str());
     return;
@@ -125,7 +135,7 @@ void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles
   if (due.snapshot) {
     wire::Snapshot snapshot;
     snapshot.set_window(window);
-    gather_snapshot(particles, exchange_.communicator(), snapshot);
+    gather_snapshot(model_, particles, exchange_.communicator(), snapshot);
     if (exchange_.is_root()) exchange_.send(static_cast<const wire::Snapshot&>(snapshot));
   }
 }
@@ -134,7 +144,7 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
                         const PairEnergy& pairs) {
   ReportSums sums;
   ReportMaxima maxima;
-  add_particles(particles, sums, maxima);
+  add_particles(model_, particles, sums, maxima);
   const InterfaceLedger& surface = contacts_.ledger();
   sums.pair_normal = pairs.stored_normal;
   sums.pair_tangential = pairs.stored_tangential;
@@ -147,12 +157,16 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
   sums.work_on_particles = surface.work_on_particles;
   sums.work_on_surface = surface.work_on_surface;
   sums.surface_contacts = static_cast<double>(contacts_.count());
-  std::copy_n(surface.impulse.c.begin(), 2, sums.surface_impulse);
+  std::copy_n(surface.impulse.c.begin(), 3, sums.surface_impulse);
+  sums.radial = surface.radial;
+  sums.size = surface.size;
+  sums.around = surface.around;
+  sums.around_work = surface.around_work;
   maxima.overlap = std::max(std::exchange(largest_pair_overlap_, 0.0), contacts_.take_largest_overlap());
   for (PlaneContacts& plane : planes_) {
     sums.plane_stored += plane.stored();
     sums.plane_damping += plane.ledger().damping;
-    for (std::size_t c = 0; c < 2; ++c) sums.plane_impulse[c] += plane.ledger().impulse[c];
+    for (std::size_t c = 0; c < 3; ++c) sums.plane_impulse[c] += plane.ledger().impulse[c];
     maxima.overlap = std::max(maxima.overlap, plane.take_largest_overlap());
   }
   const ReportSums all = summed(sums, exchange_.communicator());
@@ -161,7 +175,7 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
 
   wire::Report message;
   message.set_window(window);
-  fill_report(all, most, message);
+  fill_report(model_, all, most, message);
   message.mutable_timing()->set_steps(step);
   if (!std::isfinite(all.kinetic) || all.particles != static_cast<double>(model_.particles)) {
     std::ostringstream text;

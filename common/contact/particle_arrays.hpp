@@ -1,5 +1,5 @@
-/// @file What touches the surface, as its owner holds it: a rank's particles, or the boundary nodes of a block as
-/// discs. Views, valid until particles are next sorted or exchanged.
+/// @file What touches the surface, as its owner holds it: a rank's particles (discs or spheres), or the boundary nodes
+/// of a block as discs. Views, valid until particles are next sorted or exchanged.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,6 @@ namespace grainstep::contact {
 namespace {
 
 using surface::ClosestPoint;
-using surface::in_space;
 using surface::Vec2;
 using surface::Vec3;
 
@@ -18,10 +17,19 @@ std::string tunnelled(const SurfaceContactSettings& settings, const ParticleArra
                       const ClosestPoint& at) {
   const double* x = particles.position[i];
   std::ostringstream text;
-  text << settings.name << " " << particles.identity[i] << " passed through the surface (tunnelled) at x1 = " << x[0]
-       << " m, x2 = " << x[1] << " m: its centre lies " << -at.distance << " m inside, more than its diameter "
-       << 2.0 * particles.radius[i] << " m; " << settings.remedy;
+  text << settings.name << " " << particles.identity[i]
+       << " passed through the surface (tunnelled) at x1 = " << place_of(settings.shape, x)[0] << " m, x2 = " << x[1]
+       << " m: its centre lies " << -at.distance << " m inside, more than its diameter " << 2.0 * particles.radius[i]
+       << " m; " << settings.remedy;
   return text.str();
+}
+
+void add_ring(const Meridian& plane, const Vec3& force, const Vec3& velocity, ParticleSide& side) {
+  const double across = plane.across(force);
+  side.radial += plane.in_plane(force)[0];
+  side.size += norm(force);
+  side.around += std::abs(across);
+  side.around_power += across * plane.across(velocity);
 }
 
 }  // namespace
@@ -37,7 +45,7 @@ void SurfaceContacts::rebuild(const ParticleArrays& particles, MovingSurface& su
   candidates_.clear();
   near_.clear();
   for (int i = 0; i < particles.owned; ++i) {
-    const Vec2 p = in_plane(particles.position[i]);
+    const Vec2 p = place_of(settings_.shape, particles.position[i]);
     if (!grid_.covers(p)) continue;
     const auto first = static_cast<std::uint32_t>(near_.size());
     grid_.near(surface.now(), p, near_);
@@ -54,12 +62,12 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
   for (const Candidate& candidate : candidates_) {
     const int i = candidate.particle;
     const std::span<const std::uint32_t> segments(near_.data() + candidate.first, candidate.last - candidate.first);
-    const ClosestPoint at = surface.now().closest(in_plane(particles.position[i]), segments);
+    const ClosestPoint at = surface.now().closest(place_of(settings_.shape, particles.position[i]), segments);
     if (at.distance < particles.radius[i]) {
       if (at.distance < -2.0 * particles.radius[i] && !failure) failure = tunnelled(settings_, particles, i, at);
       touch(particles, surface, i, at, dt);
-      const Vec3& total = contacts_.back().total;
-      surface.now().spread({{-weight * total[0], -weight * total[1]}}, at, nodal);
+      const Contact& contact = contacts_.back();
+      surface.now().spread(-(settings_.whole * weight) * contact.plane.in_plane(contact.total), at, nodal);
     } else {
       particles.spring[i] = {};
     }
@@ -72,9 +80,11 @@ void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface
   const ContactLaw& law = settings_.law;
   const double radius = particles.radius[i];
   const double overlap = radius - at.distance;
-  const Vec3 normal = in_space(at.normal);
+  const Meridian plane = meridian_of(settings_.shape, particles.position[i]);
+  const Vec3 normal = plane.in_space(at.normal);
   const Branch branch = branch_along(normal, at.distance, radius);
-  const Vec3 relative = vector_of(particles.velocity[i]) - in_space(surface.now().interpolate(surface.velocity(), at));
+  const Vec3 relative =
+      vector_of(particles.velocity[i]) - plane.in_space(surface.now().interpolate(surface.velocity(), at));
   const NormalForce push = normal_force(law, branch, overlap, relative, particles.mass[i]);
 
   Vec3 drag;
@@ -92,7 +102,7 @@ void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface
   stored_normal_ += 0.5 * law.normal_stiffness * overlap * overlap;
   largest_overlap_ = std::max(largest_overlap_, overlap / (2.0 * radius));
   const Vec3 total = push.total() * branch.vector + drag;
-  contacts_.push_back({i, at, push.dashpot * branch.vector, drag, total, torque});
+  contacts_.push_back({i, at, plane, push.dashpot * branch.vector, drag, total, torque});
 }
 
 void SurfaceContacts::apply(const ParticleArrays& particles) const {
@@ -105,7 +115,7 @@ void SurfaceContacts::apply(const ParticleArrays& particles) const {
 SurfaceSide SurfaceContacts::surface_side(const MovingSurface& surface) const {
   SurfaceSide side;
   for (const Contact& contact : contacts_) {
-    const Vec3 velocity = in_space(surface.now().interpolate(surface.velocity(), contact.at));
+    const Vec3 velocity = contact.plane.in_space(surface.now().interpolate(surface.velocity(), contact.at));
     side.power += dot(contact.total, velocity);
     side.dashpot += dot(contact.dashpot, velocity);
     side.tangential += dot(contact.tangential, velocity);
@@ -126,6 +136,7 @@ void SurfaceContacts::end_interval(const ParticleArrays& particles, const Moving
     side.power += dot(contact.total, velocity) + turning;
     side.dashpot += dot(contact.dashpot, velocity);
     side.tangential += dot(contact.tangential, velocity) + turning;
+    if (settings_.shape == Shape::revolved) add_ring(contact.plane, contact.total, velocity, side);
   }
   particle_side_ = side;
   ledger_.add(dt / 2.0, particle_side_, surface_side(surface));

@@ -1,6 +1,9 @@
 /// @file Contact of particles with the moving surface: who is near, forces, reactions, ledger. The nodes of a block are
 /// particles as well, discs that do not turn.
 ///
+/// A surface of revolution is touched in the half plane through the axis and the particle's centre. Its nodes are
+/// rings: they get the force's components in that plane, `whole` times; what points along the circumference is dropped.
+///
 /// Order of calls: rebuild() whenever particles were reordered or either side has moved by its share of the margin;
 /// then per step begin_interval(), evaluate(), apply(), and end_interval() once velocities stand at t(n).
 #pragma once
@@ -12,6 +15,7 @@
 
 #include "contact/contact_law.hpp"
 #include "contact/interface_ledger.hpp"
+#include "contact/meridian.hpp"
 #include "contact/moving_surface.hpp"
 #include "contact/particle_arrays.hpp"
 #include "surface/segment_grid.hpp"
@@ -20,6 +24,8 @@ namespace grainstep::contact {
 
 struct SurfaceContactSettings {
   ContactLaw law;
+  Shape shape = Shape::extruded;
+  double whole = 1.0;  ///< reactions are multiplied by it: full circle over slice
   bool lever_is_radius = false;
   double largest_radius = 0.0;    ///< m
   double particle_margin = 0.0;   ///< m a particle may move between two rebuilds
@@ -69,6 +75,7 @@ class SurfaceContacts {
   struct Contact {
     int particle;
     surface::ClosestPoint at;
+    Meridian plane;
     surface::Vec3 dashpot, tangential, total, torque;  ///< on the particle
   };
 

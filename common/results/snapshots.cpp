@@ -27,7 +27,7 @@ void Snapshots::add_arrays(const std::string& group, double time, const wire::Sn
       Array{.dataset = group + "/time", .meaning = {"s", "time since first contact"}, .values = {time}, .indices = {}});
   file_.add(Array{.dataset = group + "/position",
                   .meaning = {"m", "position of every point"},
-                  .columns = 2,
+                  .columns = vtk::dimension_of(snapshot),
                   .values = values_of(snapshot.position()),
                   .indices = {}});
   if (snapshot.cell_size() > 0) {

@@ -12,8 +12,6 @@
 namespace grainstep::results::vtk {
 namespace {
 
-constexpr std::size_t dimension = 2;  // of positions in a snapshot
-
 template <class Value>
 constexpr const char* type_name();
 template <>
@@ -64,8 +62,8 @@ class Document {
 
 std::vector<double> with_third_component(std::span<const double> values) {
   std::vector<double> out;
-  out.reserve(values.size() / dimension * 3);
-  for (std::size_t i = 0; i + 1 < values.size(); i += dimension) {
+  out.reserve(values.size() / 2 * 3);
+  for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
     out.insert(out.end(), {values[i], values[i + 1], 0.0});
   }
   return out;
@@ -77,7 +75,7 @@ std::span<const double> span_of(const google::protobuf::RepeatedField<double>& v
 
 void add_fields(Document& document, const google::protobuf::RepeatedPtrField<wire::Field>& fields) {
   for (const wire::Field& field : fields) {
-    if (field.components() == dimension) {
+    if (field.components() == 2) {
       document.array<double>(field.name(), 3, with_third_component(span_of(field.value())));
     } else {
       document.array(field.name(), field.components(), span_of(field.value()));
@@ -87,7 +85,11 @@ void add_fields(Document& document, const google::protobuf::RepeatedPtrField<wir
 
 void add_points(Document& document, const wire::Snapshot& snapshot) {
   document.text("<Points>\n");
-  document.array<double>("Points", 3, with_third_component(span_of(snapshot.position())));
+  if (dimension_of(snapshot) == 3) {
+    document.array("Points", 3, span_of(snapshot.position()));
+  } else {
+    document.array<double>("Points", 3, with_third_component(span_of(snapshot.position())));
+  }
   document.text("</Points>\n");
 }
 
@@ -101,8 +103,10 @@ std::vector<std::int64_t> counted(std::size_t count, std::int64_t first, std::in
 
 }  // namespace
 
+std::size_t dimension_of(const wire::Snapshot& snapshot) { return snapshot.dimension() == 3 ? 3 : 2; }
+
 std::string particles(const wire::Snapshot& snapshot) {
-  const std::size_t points = static_cast<std::size_t>(snapshot.position_size()) / dimension;
+  const std::size_t points = static_cast<std::size_t>(snapshot.position_size()) / dimension_of(snapshot);
   const std::string count = std::to_string(points);
   Document document;
   document.text("<PolyData>\n<Piece NumberOfPoints=\"" + count + "\" NumberOfVerts=\"" + count +
@@ -119,7 +123,7 @@ std::string particles(const wire::Snapshot& snapshot) {
 
 std::string structure(const wire::Snapshot& snapshot) {
   constexpr std::uint8_t triangle = 5;  // VTK_TRIANGLE
-  const std::size_t points = static_cast<std::size_t>(snapshot.position_size()) / dimension;
+  const std::size_t points = static_cast<std::size_t>(snapshot.position_size()) / dimension_of(snapshot);
   const std::size_t cells = static_cast<std::size_t>(snapshot.cell_size()) / 3;
   Document document;
   document.text("<UnstructuredGrid>\n<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" +

@@ -10,6 +10,9 @@
 
 namespace grainstep::results::vtk {
 
+/// Coordinates per point: 2 or 3.
+[[nodiscard]] std::size_t dimension_of(const wire::Snapshot& snapshot);
+
 /// Points with one vertex each and all point fields: PolyData (.vtp).
 [[nodiscard]] std::string particles(const wire::Snapshot& snapshot);
 

@@ -29,7 +29,7 @@ Bounce bounce(double restitution, double dt) {
   ContactLaw law;
   law.normal_stiffness = stiffness;
   law.damping_rate = continuum_damping(pair);
-  PlaneContacts mirror({Plane::Kind::mirror, 0.0, 1.0}, law, radius);
+  PlaneContacts mirror({.kind = Plane::Kind::mirror}, law, radius);
   double x[3] = {radius, 0.0, 0.0};
   double v[3] = {-speed, 0.0, 0.0};
   double f[3] = {};

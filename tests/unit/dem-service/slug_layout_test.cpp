@@ -17,7 +17,7 @@ using contact::MovingSurface;
 namespace {
 
 using rig::slug_of;
-using surface::Vec2;
+using surface::Vec3;
 
 constexpr double round_off = 1e-12;  // m, of lengths of centimetres
 constexpr double left = 1.1e-9;      // of a diameter: the gap that first touch leaves on purpose
@@ -56,11 +56,11 @@ TEST(SlugLayout, TurnedSlugIsTheSameBlockSeenFromAnotherDirection) {
   const auto turned = placed(setup);
   ASSERT_EQ(turned.size(), straight.size());
   EXPECT_NEAR(lowest(turned), 0.5e-3, left * 1e-3);
-  const Vec2 lateral{{std::cos(angle), std::sin(angle)}};
-  const Vec2 ahead{{std::sin(angle), -std::cos(angle)}};
+  const Vec3 lateral{{std::cos(angle), std::sin(angle)}};
+  const Vec3 ahead{{std::sin(angle), -std::cos(angle)}};
   for (std::size_t i = 1; i < turned.size(); ++i) {
-    const Vec2 before = straight[i].position - straight[0].position;
-    const Vec2 after = turned[i].position - turned[0].position;
+    const Vec3 before = straight[i].position - straight[0].position;
+    const Vec3 after = turned[i].position - turned[0].position;
     ASSERT_NEAR(dot(after, lateral), before[0], round_off);
     ASSERT_NEAR(dot(after, ahead), -before[1], round_off);
     ASSERT_NEAR(dot(turned[i].velocity, ahead), 400.0, 400.0 * round_off);

@@ -127,7 +127,7 @@ TEST(SurfaceContact, OnlyTheRelativeVelocityMatters) {
   const Flight still{.nodes = {{{-0.05, 0}}, {{0.0, 0}}, {{0.05, 0}}},
                      .particle = {{{1e-3, radius + 1e-6}}, {{40.0, -80.0}}, 0.0}};
   Flight moving = still;
-  moving.particle.velocity += drift;
+  moving.particle.velocity += in_space(drift);
   moving.motion = [&](std::uint64_t n, const Vec2& x) { return x + drift * (static_cast<double>(n) * dt); };
   const ScriptedLink a = fly(still);
   const ScriptedLink b = fly(moving);

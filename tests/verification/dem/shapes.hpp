@@ -15,9 +15,14 @@ inline Path at_rest() {
   return [](double, const Vec2& start) { return start; };
 }
 
+struct Disc {
+  Vec2 position, velocity;  ///< m, m/s
+  double spin = 0.0;        ///< 1/s
+};
+
 struct Experiment {
-  std::vector<Vec2> nodes;                ///< of one open piece, within 20 mm of the origin
-  std::vector<PlacedParticle> particles;  ///< one for each copy; D = 1 mm
+  std::vector<Vec2> nodes;      ///< of one open piece, within 20 mm of the origin
+  std::vector<Disc> particles;  ///< one for each copy; D = 1 mm
   impacts::Law law{.restitution = 1.0, .friction = 0.0, .lever_is_radius = false};
   double steps_per_contact = 10.0;
   double contact_times = 4.0;  ///< how long
@@ -26,7 +31,7 @@ struct Experiment {
 
 /// What one copy saw. Particles are free at the start and at the end.
 struct Outcome {
-  PlacedParticle before, after;
+  Disc before, after;
   std::vector<Vec2> force;  ///< on the surface at t(n), N; at t(0) none
   Vec2 impulse;             ///< on the surface, N s
   double moment = 0.0;      ///< of that impulse about the origin, from the nodes' places at t(n); N m s
@@ -42,10 +47,10 @@ struct Result {
 inline constexpr double pitch = 0.05;  ///< m between copies
 inline constexpr double radius = 0.5e-3;
 
-inline double energy(const Result& result, const PlacedParticle& p) {
+inline double energy(const Result& result, const Disc& p) {
   return 0.5 * result.mass * (dot(p.velocity, p.velocity) + 0.5 * std::pow(radius * p.spin, 2));
 }
-inline double angular_momentum(const Result& result, const PlacedParticle& p) {
+inline double angular_momentum(const Result& result, const Disc& p) {
   return result.mass * (p.position[0] * p.velocity[1] - p.position[1] * p.velocity[0] + 0.5 * radius * radius * p.spin);
 }
 
@@ -67,7 +72,7 @@ inline void place(const Experiment& experiment, wire::Setup& setup) {
   }
 }
 
-inline PlacedParticle particle_of(const wire::Snapshot& snapshot, std::size_t k) {
+inline Disc particle_of(const wire::Snapshot& snapshot, std::size_t k) {
   const int i = static_cast<int>(k);
   const wire::Field& velocity = rig::field(snapshot, "velocity");
   return {{{snapshot.position(2 * i) - pitch * static_cast<double>(k), snapshot.position(2 * i + 1)}},
@@ -100,8 +105,11 @@ inline Result carry_out(const Experiment& experiment) {
   detail::place(experiment, setup);
   const SlugModel model = rig::model_of(setup);
   Result result{model.contact_time / experiment.steps_per_contact, model.mass, {}};
-  std::vector<PlacedParticle> particles = experiment.particles;
-  for (std::size_t k = 0; k < particles.size(); ++k) particles[k].position[0] += pitch * static_cast<double>(k);
+  std::vector<PlacedParticle> particles;
+  for (const Disc& disc : experiment.particles) {
+    const Vec2 origin{{pitch * static_cast<double>(particles.size()), 0.0}};
+    particles.push_back({in_space(disc.position + origin), in_space(disc.velocity), disc.spin});
+  }
   const auto steps = static_cast<std::uint64_t>(experiment.contact_times * experiment.steps_per_contact);
   const rig::Motion motion = [&](std::uint64_t n, const Vec2& global) {
     const Vec2 origin{{pitch * std::round(global[0] / pitch), 0.0}};
