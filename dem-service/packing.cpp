@@ -85,6 +85,9 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 /// thousand discs, three seeds). 3000 each leave room; a slug of few discs gets some more. Beyond that it has jammed.
 std::uint64_t attempt_budget(std::uint64_t count) { return 100000 + 3000 * count; }
 
+/// A ring that refuses so many is full: beside the axis, where the slice is hardly wider than a sphere, above 0.25.
+constexpr std::uint64_t attempts_in_a_ring = 300;
+
 /// What was asked for and what has become of it, for the message.
 struct Jam {
   std::uint64_t asked = 0, placed = 0;
@@ -144,16 +147,22 @@ std::vector<Vec3> pack_at_random(const PackingSlice& slice, std::uint64_t count,
   const double left = slice.outer * std::min(0.0, std::cos(slice.angle));
   const double widest = slice.outer * (slice.angle < 0.5 * std::numbers::pi ? std::sin(slice.angle) : 1.0);
   Cells<3> cells({{left, slice.low, 0.0}}, {{slice.outer, slice.high, widest}}, diameter);
-  const std::vector<std::uint32_t> rings = shuffled(count, random);
+  std::vector<std::uint32_t> rings = shuffled(count, random);
   const std::uint64_t budget = attempt_budget(count);
+  std::uint64_t failed = 0;
   for (std::uint64_t attempt = 0; attempt < budget && centres.size() < count; ++attempt) {
-    // The place is drawn anew until it is vacant, but stays in its ring.
+    // The place is drawn anew until it is vacant, but stays in its ring unless that is full.
+    if (failed == attempts_in_a_ring) {
+      rings[centres.size()] = static_cast<std::uint32_t>(uniform(random) * static_cast<double>(count));
+      failed = 0;
+    }
     const double r = std::sqrt(inner2 + (rings[centres.size()] + uniform(random)) * ring);
     const double along = uniform(random);
     const double across = uniform(random);
     const double margin = std::asin(std::min(1.0, slice.wall_gap / r));
     const double theta = margin + across * std::max(0.0, slice.angle - 2.0 * margin);
-    cells.take({{r * std::cos(theta), slice.low + along * (slice.high - slice.low), r * std::sin(theta)}}, centres);
+    const Vec3 place{{r * std::cos(theta), slice.low + along * (slice.high - slice.low), r * std::sin(theta)}};
+    failed = cells.take(place, centres) ? 0 : failed + 1;
   }
   if (centres.size() < count) {
     const double radius = slice.outer + 0.5 * diameter;

@@ -24,7 +24,7 @@ void PlaneContacts::evaluate(const ParticleArrays& particles) {
   for (const int i : candidates_) {
     const double radius = particles.radius[i];
     const double gap = distance(particles, i);
-    const double overlap = times * (plane_.reach * radius - gap);
+    const double overlap = times * (radius - gap);
     if (overlap <= 0.0) continue;
     const Branch branch = branch_along(plane_.inward, times * gap, radius);
     const Vec3 relative = times * vector_of(particles.velocity[i]);

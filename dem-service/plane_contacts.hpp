@@ -24,7 +24,6 @@ struct Plane {
   Kind kind = Kind::wall;
   Vec3 inward{{1.0, 0.0, 0.0}};  ///< unit normal, towards the particles
   double position = 0.0;         ///< m, of the plane along it
-  double reach = 1.0;            ///< of a radius: a centre nearer than that touches
 };
 
 class PlaneContacts {

@@ -39,7 +39,7 @@ std::vector<PlacedParticle> spheres(const SlugModel& model) {
                            .low = radius,
                            .high = model.height - radius,
                            .angle = model.slice,
-                           .wall_gap = model.slice_gap()};
+                           .wall_gap = radius};
   std::vector<PlacedParticle> particles;
   particles.reserve(model.particles);
   for (const Vec3& centre : pack_at_random(slice, model.particles, model.diameter, model.seed)) {

@@ -12,11 +12,6 @@ namespace grainstep::dem {
 
 using contact::ContactLaw;
 
-/// A sphere touches the planes of its slice when its centre is nearer than this share of its radius. Between planes
-/// that touch the whole sphere (1) sand packs almost as densely as without them, and the slug is empty only where the
-/// slice is thinner than a sphere; docs/decisions/0011-slices-of-slugs.md has the figures.
-inline constexpr double slice_reach = 1.0;
-
 /// Two-dimensional cylinders of depth b, or spheres in a slice of a cylindrical slug; SI.
 struct SlugModel {
   double half_width = 0.0;
@@ -51,8 +46,6 @@ struct SlugModel {
   [[nodiscard]] double whole() const { return spheres() ? 2.0 * std::numbers::pi / slice : 1.0; }
   /// Rotational inertia over m R^2.
   [[nodiscard]] double gyration() const { return spheres() ? 0.4 : 0.5; }
-  /// m: how near a sphere's centre may come to the planes of its slice.
-  [[nodiscard]] double slice_gap() const { return slice_reach * diameter / 2.0; }
 };
 
 /// Throws InputError for what cannot be computed, e.g. a solid fraction above what random packing reaches.

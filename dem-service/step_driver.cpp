@@ -37,8 +37,8 @@ StepDriver::StepDriver(const SlugModel& model, const wire::Start& start, const S
   if (!model.confined && !model.spheres()) return;
   const ContactLaw wall = calibrated_surface_law(model, settings.dt);
   if (model.spheres()) {
-    add({.inward = {{0.0, 0.0, 1.0}}, .reach = slice_reach}, wall);
-    add({.inward = {{std::sin(model.slice), 0.0, -std::cos(model.slice)}}, .reach = slice_reach}, wall);
+    add({.inward = {{0.0, 0.0, 1.0}}}, wall);
+    add({.inward = {{std::sin(model.slice), 0.0, -std::cos(model.slice)}}}, wall);
     return;
   }
   add({.inward = {{-1.0, 0.0, 0.0}}, .position = -model.half_width}, wall);
