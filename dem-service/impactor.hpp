@@ -1,4 +1,5 @@
-/// @file The particle impactor: a slug of discs computed by LAMMPS, as a backend for participant::serve_impactor.
+/// @file The particle impactor: a slug of discs or spheres computed by LAMMPS, as a backend for
+/// participant::serve_impactor.
 #pragma once
 
 #include <mpi.h>

@@ -37,7 +37,7 @@ struct PackingSlice {
 
 /// Likewise of spheres in a slice. Every ring of equal area between inner() and `outer` gets the same number, to one,
 /// whatever share of it lies within `wall_gap` of the planes: what the slug weighs per area does not fall towards the
-/// axis (docs/decisions/0011-slices-of-slugs.md).
+/// axis (docs/decisions/0012-slices-of-slugs.md).
 [[nodiscard]] std::vector<surface::Vec3> pack_at_random(const PackingSlice& slice, std::uint64_t count, double diameter,
                                                         std::uint64_t seed);
 

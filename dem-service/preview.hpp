@@ -10,6 +10,7 @@ namespace grainstep::dem {
 struct ImpactorPreview {
   std::uint64_t particles = 0;
   double particle_mass = 0.0;              ///< kg
+  double contact_mass = 0.0;               ///< kg, likewise; of a slice's sphere as a ring of the full circle feels it
   double contact_time = 0.0;               ///< s, t_e of a pair (2.4)
   double stable_step = 0.0;                ///< s
   double preferred_step = 0.0;             ///< s, what `auto` takes: t_e/10

@@ -19,7 +19,7 @@ ImpactorPreview without_mass() {
 ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
   const dem::ImpactorPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
   return {.particles = slug.particles,
-          .contact_mass = slug.particle_mass,
+          .contact_mass = slug.contact_mass,
           .contact_time = slug.contact_time,
           .stable_step = slug.stable_step,
           .preferred_step = slug.preferred_step,

@@ -43,6 +43,22 @@ TEST_F(SnapshotsTest, ParticlesAreReadByVtk) {
   EXPECT_THAT(seen, HasSubstr("point radius [0.5, 0.25, 0.125]"));
 }
 
+TEST_F(SnapshotsTest, SpheresHaveThreeCoordinates) {
+  ResultsFile file(directory_.results(), {});
+  Snapshots snapshots(directory_, file);
+  wire::Snapshot snapshot;
+  snapshot.set_dimension(3);
+  for (const double x : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) snapshot.add_position(x);
+  set(*snapshot.add_point_field(), "velocity", 3, {1.0, -2.0, 3.0, -4.0, 5.0, -6.0});
+  snapshots.add(wire::IMPACTOR, 0.0, snapshot);
+  file.flush();
+  const std::string seen = read_with("vtk", directory_.paraview() / "particles_0000.vtp");
+  EXPECT_THAT(seen, HasSubstr("points 2 cells 2\n"));
+  EXPECT_THAT(seen, HasSubstr("coordinates [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]"));
+  EXPECT_THAT(seen, HasSubstr("point velocity [[1.0, -2.0, 3.0], [-4.0, 5.0, -6.0]]"));
+  EXPECT_THAT(read_with("hdf5", directory_.results()), HasSubstr("[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]"));
+}
+
 TEST_F(SnapshotsTest, StructureIsReadByVtkAndByH5py) {
   ResultsFile file(directory_.results(), {});
   Snapshots snapshots(directory_, file);
