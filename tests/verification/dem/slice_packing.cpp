@@ -15,7 +15,7 @@ using rig::degree;
 using surface::Vec3;
 using verification::Series;
 
-constexpr int seeds = 8;
+constexpr int seeds = 40;
 constexpr double diameter = 2e-3;
 constexpr double slug_radius = 0.1;
 constexpr double slug_height = 0.15;
@@ -69,8 +69,8 @@ double solid_beside_planes(const std::vector<Vec3>& centres, double distance) {
 }
 
 TEST(SlicePacking, IsUniformAlongTheRadiusAndBesideThePlanes) {
-  Series beside{"mean of 8 seeds", {}, {}, Series::Mark::points};
-  Series along{"mean of 8 seeds", {}, {}, Series::Mark::points};
+  Series beside{"mean of 40 seeds", {}, {}, Series::Mark::points};
+  Series along{"mean of 40 seeds", {}, {}, Series::Mark::points};
   for (double x = 0.0; x < 2.6; x += 0.1) beside.x.push_back(x);
   beside.y.assign(beside.x.size(), 0.0);
   constexpr double ring = 2.5e-3;
@@ -114,7 +114,7 @@ TEST(SlicePacking, IsUniformAlongTheRadiusAndBesideThePlanes) {
         2e-3,
         "exact but for rings cut by the limits: centres keep one radius from the rim and r > R/sin(phi/2) = 11.5 R");
   check("largest deviation of a ring of 2.5 mm from that mean", 0.0, worst, 0.02,
-        "exact by quota, but for the binning: one sphere in 50 of the innermost ring, times 8 seeds");
+        "exact by quota, but for the binning: ring edges between two quotas");
 
   double near = 0.0;
   double far = 0.0;
@@ -125,7 +125,7 @@ TEST(SlicePacking, IsUniformAlongTheRadiusAndBesideThePlanes) {
     if (x > 1.51 && x < 2.41) far += beside.y[i], counted[1] += 1.0;
   }
   check("solid fraction 1 to 1.5 D from the planes over that 1.6 to 2.4 D from them", 1.0,
-        (near / counted[0]) / (far / counted[1]), 0.02, "statistics: 20 thousand spheres");
+        (near / counted[0]) / (far / counted[1]), 0.02, "statistics: 40 seeds, a hundred thousand spheres each side");
   verification::curve({.group = "particles",
                        .name = "slug of spheres in a slice of 10 degrees, D = 2 mm",
                        .title = "beside the planes, r = 60 to 98 mm",
