@@ -6,7 +6,8 @@ namespace grainstep::dem {
 namespace {
 
 // Measured on one core of 2020s server hardware: per particle and step, mean over an event, 40 to 43 ns with 8 and with
-// 31 thousand particles, 68 with 191 thousand beside other programs (docs/accuracy.md).
+// 31 thousand particles, 68 with 191 thousand beside other programs (docs/accuracy.md). Spheres: 51 ns with 6250 of
+// them (configs/small/plate-monolithic.yaml).
 constexpr double seconds_of_dynamics = 4.5e-8;
 constexpr std::uint64_t bytes_of_program = 60'000'000;
 constexpr std::uint64_t bytes_per_particle = 1'500;  // LAMMPS arrays, neighbour lists with histories
