@@ -35,7 +35,7 @@ Body make_body(const Case& setting, const Kernels& kernels) {
   const auto elastic = grainstep::fe::Elastic::from_young(200e9, 0.3, 8000.0);
   const grainstep::fe::Dh36 steel{elastic, 470e6, 1.5, 0.4, 0.015, 1.0};
   // Of a tenth of the steel's density and strength, with the viscosity of (3.10) for c/L = 0.33.
-  const grainstep::fe::Core core{grainstep::fe::Elastic::from_young(20e9, 0.25, 800.0), 5e6, 1.9, 20e9, 6.3e3};
+  const grainstep::fe::Core core{grainstep::fe::Elastic::from_young(20e9, 0.25, 800.0), 5e6, 1.9, 20e9, 6.3e3, 5e6};
   const bool is_core = setting.flow == Flow::core;
   return {grainstep::fe::make_mesh(structure),
           {is_core ? grainstep::fe::Material(core) : steel},
