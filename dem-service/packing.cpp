@@ -85,7 +85,7 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 /// thousand discs, three seeds). 3000 each leave room; a slug of few discs gets some more. Beyond that it has jammed.
 std::uint64_t attempt_budget(std::uint64_t count) { return 100000 + 3000 * count; }
 
-/// A ring that refuses so many is full: beside the axis, where the slice is hardly wider than a sphere, above 0.25.
+/// A ring that refuses so many is full: beside the axis, where the slice is hardly wider than a sphere, of dense slugs.
 constexpr std::uint64_t attempts_in_a_ring = 300;
 
 /// What was asked for and what has become of it, for the message.
