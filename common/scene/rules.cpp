@@ -58,6 +58,20 @@ void foam_follows_from(const Impactor& impactor, Findings& findings) {
                           rounded_text(slug.relative_density()) + ": nothing would be left to compact; expected more"});
 }
 
+/// Sand beside the span flies past it. Compacted foam is stiff: what overhangs would push on the rest, up to twice the
+/// sand's load.
+void foam_stays_on_the_span(const Scene& scene, Findings& findings) {
+  const Slug& slug = scene.impactor().slug();
+  const double reach = slug.half_width() + std::abs(slug.offset());
+  const double half_span = scene.structure().half_span();
+  if (reach <= half_span) return;
+  findings.push_back({Severity::error, slug.offset() == 0.0 ? "impactor.slug.half_width" : "impactor.slug.offset",
+                      "the foam projectile reaches to " + metres(reach) +
+                          ", beyond the structure (structure.half_span is " + metres(half_span) +
+                          "), and what overhangs it would load it as the slug does not. Take "
+                          "impactor.type: slug, or a smaller one"});
+}
+
 /// What a type of impactor needs, and what it would not read. A slug may stay: scenes inherit it from what they
 /// include.
 void impactor_is_described(const Impactor& impactor, bool slug, Findings& findings) {
@@ -226,7 +240,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
   if (foam) foam_follows_from(scene.impactor(), findings);
   if (slug) {
     if (!foam) slug_holds_particles(scene.impactor().slug(), findings);
-    slug_meets_structure(scene, findings);
+    foam ? foam_stays_on_the_span(scene, findings) : slug_meets_structure(scene, findings);
     if (!foam) slug_moves(scene.impactor().slug(), findings);
   }
   const Pressure& pressure = scene.impactor().pressure();
