@@ -6,7 +6,7 @@
 #include <array>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "../support/fe_motion.hpp"
+#include "../support/fe_mode.hpp"
 #include "../support/fe_scenes.hpp"
 #include "support/verification_record.hpp"
 
@@ -38,8 +38,7 @@ double euler_bernoulli(int mode, double thickness) {
   return std::pow(kRoot[mode] / kSpan, 2) * std::sqrt(kModulus * thickness * thickness / 12.0 / kDensity);
 }
 
-/// Circular frequency from half a period: the body starts straight with the velocity of a mode (which keeps sections
-/// normal to the axis), and its projection on that mode returns to zero.
+/// Circular frequency, started with the velocity of Euler and Bernoulli's mode: sections normal to the axis.
 double frequency(int mode, double thickness, int quads_through_thickness) {
   scene::Structure structure =
       test::beam(scene::Layer::MATERIAL_ELASTIC, kHalfSpan, thickness, 0.5 * quads_through_thickness);
@@ -49,33 +48,7 @@ double frequency(int mode, double thickness, int quads_through_thickness) {
     const Shape s = shape(mode, (nodes.x0[i] + kHalfSpan) / kSpan);
     return Vec2{-s.slope * (nodes.y0[i] + 0.5 * thickness), s.value};
   };
-  test::for_each_node(body, [&](Nodes& nodes, std::size_t i) {
-    const Vec2 v = velocity(nodes, i);
-    nodes.u[i] = 1e-3 * v.x;
-    nodes.v[i] = 1e-3 * v.y;
-  });
-  const auto projection = [&] {
-    double sum = 0.0;
-    test::for_each_node(body, [&](const Nodes& nodes, std::size_t i) {
-      const Vec2 moved{nodes.x[i] - nodes.x0[i], nodes.y[i] - nodes.y0[i]};
-      sum += nodes.mass[i] * dot(moved, velocity(nodes, i));
-    });
-    return sum;
-  };
-  test::Stepper stepper(body, 0.9 * body.stable_step());
-  const double half_period = M_PI / euler_bernoulli(mode, thickness);
-  double before = 0.0;
-  double time_before = 0.0;
-  while (stepper.time() < 2.0 * half_period) {
-    stepper([](Body& b) { (void)b.hold_supports(); });
-    if (stepper.time() < 0.8 * half_period) continue;
-    const double now = projection();
-    if (now <= 0.0) return M_PI / (time_before + (stepper.time() - time_before) * before / (before - now));
-    before = now;
-    time_before = stepper.time();
-  }
-  ADD_FAILURE() << "does not return";
-  return 0.0;
+  return test::frequency_of_mode(body, euler_bernoulli(mode, thickness), 0.9, velocity, test::in_clamps);
 }
 
 /// Clamped Timoshenko beam (shear factor 5/6), by the transfer matrix of (w/L, phi, M L/(EI), Q L^2/(EI)) over x/L.

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "../support/fe_motion.hpp"
+#include "../support/fe_mode.hpp"
 #include "../support/fe_scenes.hpp"
 #include "support/verification_record.hpp"
 
@@ -60,7 +60,7 @@ double mindlin(int mode, double thickness) {
   return low;
 }
 
-/// Circular frequency from half a period: the plate starts flat with the velocity of a mode, sections normal to it.
+/// Circular frequency, started with the velocity of the thin plate's mode: sections normal to it.
 double frequency(int mode, double thickness, int quads_through_thickness) {
   const scene::Structure plate =
       test::beam(scene::Layer::MATERIAL_ELASTIC, kRadius, thickness, 0.5 * quads_through_thickness);
@@ -73,35 +73,7 @@ double frequency(int mode, double thickness, int quads_through_thickness) {
     return Vec2{-slope * (nodes.y0[i] + 0.5 * thickness),
                 std::cyl_bessel_j(0.0, s) - share * std::cyl_bessel_i(0.0, s)};
   };
-  std::array<std::vector<Vec2>, 2> shape;
-  const auto of = [&](const Nodes& nodes) -> std::vector<Vec2>& { return shape[&nodes == &body.corners ? 0 : 1]; };
-  for (auto& s : shape) s.resize(std::max(body.corners.x.size(), body.centres.x.size()));
-  test::for_each_node(body, [&](Nodes& nodes, std::size_t i) {
-    const Vec2 v = of(nodes)[i] = velocity(nodes, i);
-    nodes.u[i] = 1e-3 * v.x;
-    nodes.v[i] = 1e-3 * v.y;
-  });
-  const auto projection = [&] {
-    double sum = 0.0;
-    test::for_each_node(body, [&](const Nodes& nodes, std::size_t i) {
-      const Vec2 moved{nodes.x[i] - nodes.x0[i], nodes.y[i] - nodes.y0[i]};
-      sum += nodes.mass[i] * dot(moved, of(nodes)[i]);
-    });
-    return sum;
-  };
-  test::Stepper stepper(body, 0.9 * body.stable_step());
-  const double half_period = M_PI / thin_plate(mode, thickness);
-  double before = 0.0, time_before = 0.0;
-  while (stepper.time() < 2.0 * half_period) {
-    stepper([](Body& b) { (void)b.hold_supports(); });
-    if (stepper.time() < 0.8 * half_period) continue;
-    const double now = projection();
-    if (now <= 0.0) return M_PI / (time_before + (stepper.time() - time_before) * before / (before - now));
-    before = now;
-    time_before = stepper.time();
-  }
-  ADD_FAILURE() << "does not return";
-  return 0.0;
+  return test::frequency_of_mode(body, thin_plate(mode, thickness), 0.9, velocity, test::in_clamps);
 }
 
 constexpr const char* kName = "Natural frequencies of a clamped circular plate";

@@ -9,7 +9,6 @@
 
 #include "../../support/fe_scenes.hpp"
 #include "base/error.hpp"
-#include "fe-service/preview.hpp"
 #include "fe-service/rigid.hpp"
 #include "participant/schedule.hpp"
 
@@ -282,23 +281,6 @@ TEST(Rigid, GivesToItsSupportsWhatItReceives) {
   EXPECT_EQ(momentum.support_impulse(1), -momentum.interface_impulse(1));
   EXPECT_EQ(momentum.linear(1), 0.0);
   EXPECT_EQ(value_of(result.reports.back(), "deflection"), 0.0);
-}
-
-TEST(Preview, AgreesWithTheModelItDescribes) {
-  const wire::Ready ready = Structure().prepare(setup_of(kSmallBeam));
-  const StructurePreview found = preview(kSmallBeam, scene::SYMMETRY_PLANE_STRAIN, 1e-3);
-  EXPECT_EQ(found.elements, ready.size());
-  EXPECT_NEAR(found.stable_step, ready.stable_step(), 1e-12 * ready.stable_step());
-  EXPECT_NEAR(found.preferred_step, ready.preferred_step(), 1e-12 * ready.stable_step());
-  EXPECT_EQ(found.areal_mass, 160.0);
-  EXPECT_NEAR(static_cast<double>(found.memory_bytes), static_cast<double>(ready.memory()),
-              0.5 * static_cast<double>(ready.memory()));
-}
-
-TEST(Preview, RefusesWhatCannotBeComputed) {
-  scene::Structure coarse = kSmallBeam;
-  coarse.mutable_mesh()->set_refinement(0.1);
-  EXPECT_THROW((void)preview(coarse, scene::SYMMETRY_PLANE_STRAIN, 1e-3), InputError);
 }
 
 }  // namespace
