@@ -35,16 +35,6 @@ bool is_section(const FieldDescriptor& field) {
   return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !section_of(*field.message_type()).scalar_form();
 }
 
-/// What an empty map of keys would give; required keys are then missing, which does not matter here.
-std::unique_ptr<Message> defaults_of(const Message& kind) {
-  std::unique_ptr<Message> defaults(kind.New());
-  Tree nothing;
-  nothing.kind = Tree::Kind::map;
-  Problems ignored;
-  read_message(nothing, "", *defaults, ignored);
-  return defaults;
-}
-
 /// Whether `field` alone says the same in both.
 bool same(const Message& one, const Message& other, const FieldDescriptor& field) {
   const auto only = [&field](const Message& from) {

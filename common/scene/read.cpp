@@ -132,4 +132,13 @@ void read_message(const Tree& tree, const std::string& path, Message& message, P
   Reader(problems).section(tree, path, message);
 }
 
+std::unique_ptr<Message> defaults_of(const Message& kind) {
+  std::unique_ptr<Message> defaults(kind.New());
+  Tree nothing;
+  nothing.kind = Tree::Kind::map;
+  Problems ignored;
+  read_message(nothing, "", *defaults, ignored);
+  return defaults;
+}
+
 }  // namespace grainstep::scene

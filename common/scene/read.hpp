@@ -3,6 +3,7 @@
 
 #include <google/protobuf/message.h>
 
+#include <memory>
 #include <string>
 
 #include "scene/problems.hpp"
@@ -14,5 +15,8 @@ namespace grainstep::scene {
 /// absent ones filled in. What is wrong goes to `problems`; `message` is then incomplete.
 /// @param path of `tree` in its file, for messages; empty: the root.
 void read_message(const Tree& tree, const std::string& path, google::protobuf::Message& message, Problems& problems);
+
+/// What an empty map of keys would give; required keys are then missing.
+[[nodiscard]] std::unique_ptr<google::protobuf::Message> defaults_of(const google::protobuf::Message& kind);
 
 }  // namespace grainstep::scene

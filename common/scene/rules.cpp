@@ -6,6 +6,7 @@
 #include "scene/core.hpp"
 #include "scene/groups.hpp"
 #include "scene/number_text.hpp"
+#include "scene/read.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -56,6 +57,15 @@ void foam_follows_from(const Impactor& impactor, Findings& findings) {
   findings.push_back({Severity::error, "impactor.foam.densest",
                       "found " + rounded_text(impactor.foam().densest()) + ", but the slug's relative density is " +
                           rounded_text(slug.relative_density()) + ": nothing would be left to compact; expected more"});
+}
+
+void slice_is_read(const Scene& scene, Findings& findings) {
+  if (scene.symmetry() == SYMMETRY_AXISYMMETRIC) return;
+  const double absent = static_cast<const Slug&>(*defaults_of(Slug())).slice_angle();
+  if (scene.impactor().slug().slice_angle() == absent) return;
+  findings.push_back({Severity::error, "impactor.slug.slice_angle",
+                      "nobody would read it: with symmetry: plane_strain the slug is one of cylinders; set symmetry: "
+                      "axisymmetric, or leave this out"});
 }
 
 /// Sand beside the span flies past it. Compacted foam is stiff: what overhangs would push on the rest, up to twice the
@@ -242,6 +252,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
     if (!foam) slug_holds_particles(scene.impactor().slug(), findings);
     foam ? foam_stays_on_the_span(scene, findings) : slug_meets_structure(scene, findings);
     if (!foam) slug_moves(scene.impactor().slug(), findings);
+    slice_is_read(scene, findings);
   }
   const Pressure& pressure = scene.impactor().pressure();
   covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},
