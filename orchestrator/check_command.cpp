@@ -120,6 +120,7 @@ void check(const SceneOptions& options) {
   RunOptions run;
   run.scene = options;
   const Preparation p = prepare(run);
+  print_warnings(p);
   std::printf("%s\n", p.scene.title().empty() ? options.scene.c_str() : p.scene.title().c_str());
   print_groups(p.groups);
   print_sides(p);

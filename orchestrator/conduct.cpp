@@ -61,7 +61,7 @@ class Run {
       go();
       return keep({});
     } catch (const PeerError& error) {
-      std::string reason = error.what();
+      std::string reason = error.what() + own_part();
       if (how_.account_of) {
         if (const std::string account = how_.account_of(error.peer()); !account.empty()) {
           reason += "; " + account;
@@ -100,6 +100,17 @@ class Run {
   }
 
  private:
+  // A peer that is lost after we stood still was not at fault: silence is what both sides saw.
+  [[nodiscard]] std::string own_part() const {
+    const double seconds = hub_.standstill().count();
+    if (seconds <= 0.0) return "";
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  " (the orchestrator itself stood still for %.1f s just before: it was stopped, or the machine was)",
+                  seconds);
+    return text;
+  }
+
   Ending abandon(const Ending& ending, const std::string& lost = "") {
     session_.abandon(ending.reason, lost);
     return keep(ending);

@@ -26,8 +26,21 @@ void EventLoop::remove(int fd) {
   }
 }
 
+void EventLoop::note_time() {
+  const transport::Clock::time_point now = transport::Clock::now();
+  if (now - awake_ > longest_turn) standstill_ = {now, now - awake_};
+  awake_ = now;
+}
+
+std::chrono::duration<double> EventLoop::standstill() const {
+  using namespace std::chrono_literals;
+  const bool recent = standstill_ && transport::Clock::now() - standstill_->end < 10s;
+  return recent ? standstill_->length : 0s;
+}
+
 void EventLoop::wait(transport::Deadline deadline) {
   using std::chrono::milliseconds;
+  note_time();
   const auto left = std::chrono::ceil<milliseconds>(deadline - transport::Clock::now());
   const int timeout = static_cast<int>(std::clamp(left, milliseconds(0), milliseconds(1000)).count());
   std::vector<pollfd> fds;
@@ -38,6 +51,7 @@ void EventLoop::wait(transport::Deadline deadline) {
   if (ready < 0 && errno != EINTR) {
     throw std::system_error(errno, std::generic_category(), "poll");
   }
+  note_time();
   for (std::size_t i = 0; ready > 0 && i < fds.size(); ++i) {
     if (fds[i].revents != 0 && sources_[i].action) {
       const Action action = sources_[i].action;  // it may add sources

@@ -2,7 +2,9 @@
 /// deadline.
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "transport/channel.hpp"
@@ -25,12 +27,30 @@ class EventLoop {
   /// Returns at the deadline or earlier, after the actions of everything that was readable.
   void wait(transport::Deadline deadline);
 
+  /// Whoever waits next has worked until now, and was not held up.
+  void wake() { awake_ = transport::Clock::now(); }
+
+  /// s: how long this process did not get to run lately although it had to, because it was stopped or the machine stood
+  /// still; 0: it ran. Peers take such a process for lost, and it takes them for lost.
+  [[nodiscard]] std::chrono::duration<double> standstill() const;
+
  private:
+  /// Waits last a second at most, and turns between them milliseconds.
+  static constexpr std::chrono::milliseconds longest_turn{2200};
+  struct Standstill {
+    transport::Clock::time_point end;
+    std::chrono::duration<double> length;
+  };
+
+  void note_time();
+
   struct Source {
     int fd;
     Action action;
   };
   std::vector<Source> sources_;
+  transport::Clock::time_point awake_ = transport::Clock::now();
+  std::optional<Standstill> standstill_;
 };
 
 }  // namespace grainstep::orchestrator

@@ -48,6 +48,7 @@ void Hub::hear_last_words(const std::string& peer, const Handler& handler) {
 }
 
 bool Hub::run(const Handler& handler, const Done& done, const Until& deadline) {
+  loop_.wake();
   try {
     return run_until(handler, done, deadline);
   } catch (const PeerError& error) {

@@ -1,6 +1,7 @@
 /// @file Both conversations at once: takes messages as they come and hands them to whoever drives the phase.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -27,6 +28,8 @@ class Hub {
   [[nodiscard]] Peer& impactor() { return impactor_; }
   [[nodiscard]] Peer& structure() { return structure_; }
   [[nodiscard]] Peer& other(const Peer& peer) { return &peer == &impactor_ ? structure_ : impactor_; }
+
+  [[nodiscard]] std::chrono::duration<double> standstill() const { return loop_.standstill(); }
 
   using Handler = std::function<void(Peer&, const wire::Frame&)>;
   using Done = std::function<bool()>;

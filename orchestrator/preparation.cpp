@@ -1,5 +1,7 @@
 #include "orchestrator/preparation.hpp"
 
+#include <cstdio>
+
 #include "dem-service/preview.hpp"
 #include "orchestrator/participants.hpp"
 #include "participant/schedule.hpp"
@@ -53,6 +55,9 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   out.scene = std::move(loaded);
   out.hash = scene::scene_hash(out.scene);
   out.yaml = scene::to_yaml(out.scene);
+  for (scene::Finding& finding : scene::check_rules(out.scene)) {
+    if (finding.severity == scene::Severity::warning) out.warnings.push_back(std::move(finding));
+  }
   out.groups = scene::groups(out.scene);
   const scene::Scene& scene = out.scene;
   const bool mirror = scene::has_mirror(scene);
@@ -68,6 +73,12 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
                           {out.structure->stable_step, out.structure->preferred_step, out.structure->contact_mass});
   }
   return out;
+}
+
+void print_warnings(const Preparation& preparation) {
+  for (const scene::Finding& warning : preparation.warnings) {
+    std::fprintf(stderr, "grainstep: warning: %s: %s\n", warning.path.c_str(), warning.text.c_str());
+  }
 }
 
 std::optional<Cost> cost_of(const Preparation& p) {

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fe-service/preview.hpp"
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
 #include "orchestrator/step_plan.hpp"
 #include "scene/groups.hpp"
+#include "scene/rules.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -29,6 +31,7 @@ struct Preparation {
   scene::Scene scene;
   std::uint64_t hash = 0;
   std::string yaml;  ///< resolved
+  std::vector<scene::Finding> warnings;
   scene::Groups groups;
   std::optional<ImpactorPreview> impactor;        ///< nullopt: external
   std::optional<fe::StructurePreview> structure;  ///< nullopt: external
@@ -41,6 +44,9 @@ struct Preparation {
 
 /// The same for a scene that is loaded already; `options.scene` is not looked at.
 [[nodiscard]] Preparation prepare(scene::Scene scene, const RunOptions& options);
+
+/// To stderr, a line each: check and run say the same before anything starts.
+void print_warnings(const Preparation& preparation);
 
 /// Seconds that both sides compute, each on a core of its own; nothing where an external side does not say.
 struct Cost {

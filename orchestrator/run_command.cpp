@@ -69,6 +69,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
 
 int run(const RunOptions& options) {
   const Preparation preparation = prepare(options);
+  print_warnings(preparation);
   const results::RunDirectory directory = directory_of(options);
   directory.prepare(options.force ? results::Existing::replace : results::Existing::refuse);
   announce(options, preparation, directory);

@@ -226,9 +226,15 @@ std::optional<int> ChildProcess::exit_code() const {
   return status_ && WIFEXITED(*status_) ? std::optional(WEXITSTATUS(*status_)) : std::nullopt;
 }
 
+bool ChildProcess::is_stopped() const {
+  siginfo_t info{};
+  const bool told = ::waitid(P_PID, static_cast<id_t>(id_), &info, WSTOPPED | WNOHANG | WNOWAIT) == 0;
+  return told && info.si_pid == id_;
+}
+
 std::string ChildProcess::describe_end() const {
   if (!status_) {
-    return "is running";
+    return is_stopped() ? "is stopped (SIGSTOP, or a debugger); SIGCONT would let it go on" : "is running";
   }
   if (const auto code = exit_code()) {
     return "exited with code " + std::to_string(*code);

@@ -50,13 +50,14 @@ class ChildProcess {
 
   /// Its exit code; nullopt while it runs and when a signal ended it.
   [[nodiscard]] std::optional<int> exit_code() const;
-  /// "is running", "exited with code 3", "killed by signal 9 (SIGKILL)".
+  /// "is running", "is stopped ...", "exited with code 3", "killed by signal 9 (SIGKILL)".
   [[nodiscard]] std::string describe_end() const;
   /// The last lines that it wrote, for an error message.
   [[nodiscard]] std::string log_tail(std::size_t lines) const;
 
  private:
   void start(const Command& command);
+  [[nodiscard]] bool is_stopped() const;  ///< by a signal; what was asked stays to be told again
   void signal_group(int signal) const noexcept;
   void reap();
 

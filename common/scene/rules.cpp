@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/core.hpp"
+#include "scene/encounter.hpp"
 #include "scene/groups.hpp"
 #include "scene/number_text.hpp"
 #include "scene/read.hpp"
@@ -31,20 +32,6 @@ void slug_holds_particles(const Slug& slug, Findings& findings) {
   findings.push_back({Severity::error, "impactor.slug.particle.diameter",
                       "a particle of " + metres(diameter) + " does not fit into a slug of " +
                           metres(2 * slug.half_width()) + " by " + metres(slug.height())});
-}
-
-void slug_meets_structure(const Scene& scene, Findings& findings) {
-  const double half_width = scene.impactor().slug().half_width();
-  const double half_span = scene.structure().half_span();
-  if (half_width <= half_span) return;
-  findings.push_back({Severity::warning, "impactor.slug.half_width",
-                      "the slug (" + metres(half_width) + ") is wider than the structure (structure.half_span is " +
-                          metres(half_span) + "): what passes beside it loads nothing"});
-}
-
-void slug_moves(const Slug& slug, Findings& findings) {
-  if (slug.speed() > 0) return;
-  findings.push_back({Severity::warning, "impactor.slug.speed", "a slug at rest: nothing will hit the structure"});
 }
 
 void foam_follows_from(const Impactor& impactor, Findings& findings) {
@@ -250,9 +237,9 @@ std::vector<Finding> check_rules(const Scene& scene) {
   if (foam) foam_follows_from(scene.impactor(), findings);
   if (slug) {
     if (!foam) slug_holds_particles(scene.impactor().slug(), findings);
-    foam ? foam_stays_on_the_span(scene, findings) : slug_meets_structure(scene, findings);
-    if (!foam) slug_moves(scene.impactor().slug(), findings);
+    if (foam) foam_stays_on_the_span(scene, findings);
     slice_is_read(scene, findings);
+    check_encounter(scene, findings);
   }
   const Pressure& pressure = scene.impactor().pressure();
   covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},

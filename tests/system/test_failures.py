@@ -1,5 +1,6 @@
 """Whatever goes wrong: the right exit code, one message that names the culprit, what was computed kept, nothing left."""
 import resource
+import time
 import unittest
 
 from runs import BIN, LONG, SOURCE, Run, descendants, json, os, pathlib, signal, subprocess, tempfile, until
@@ -32,10 +33,24 @@ class KilledParticipant(Losing):
 
 class FrozenParticipant(Losing):
     def test_impactor_frozen(self):
-        self.lose("impactor", signal.SIGSTOP)
+        self.assertIn("is stopped", self.lose("impactor", signal.SIGSTOP))
 
     def test_structure_frozen(self):
-        self.lose("structure", signal.SIGSTOP)
+        self.assertIn("is stopped", self.lose("structure", signal.SIGSTOP))
+
+
+class FrozenOrchestrator(unittest.TestCase):
+    def test_says_that_it_stood_still_itself(self):
+        with Run(*LONG) as run:
+            run.wait_for_rows()
+            os.kill(run.process.pid, signal.SIGSTOP)
+            time.sleep(LOST)  # the fault itself: silence, for longer than participants bear
+            os.kill(run.process.pid, signal.SIGCONT)
+            run.end(LOST)
+            self.assertEqual(run.code, 4, run.stderr)
+            self.assertIn("the orchestrator itself stood still", run.stderr)
+            run.left_over()
+            self.assertGreaterEqual(run.rows(), 1)
 
 
 class AbsentParticipant(unittest.TestCase):
@@ -151,6 +166,14 @@ class BadInput(unittest.TestCase):
                 checked = subprocess.run([BIN / "grainstep", "check", scene], capture_output=True, text=True)
                 self.assertEqual(checked.returncode, 2)
                 self.assertIn(expected, checked.stderr)
+
+    def test_warnings_are_told_before_the_run(self):
+        for command in (["check"], ["run", "--out", "somewhere"]):
+            with tempfile.TemporaryDirectory() as place:
+                done = subprocess.run([BIN / "grainstep", *command, SOURCE / "configs/hard/stiffness-down.yaml"],
+                                      cwd=place, text=True, capture_output=True, timeout=60)
+            self.assertIn("grainstep: warning: impactor.slug.particle.normal_stiffness: too soft for this speed",
+                          done.stderr)
 
     def test_a_directory_with_a_run_is_refused_and_replaced_on_demand(self):
         with tempfile.TemporaryDirectory() as scratch:

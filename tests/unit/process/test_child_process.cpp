@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <thread>
 
 #include "base/error.hpp"
 #include "temporary_directory.hpp"
@@ -57,6 +58,15 @@ TEST_F(ChildProcessTest, reports_the_exit_code_and_what_was_written) {
   EXPECT_EQ(child.exit_code(), 3);
   EXPECT_EQ(child.describe_end(), "exited with code 3");
   EXPECT_EQ(child.log_tail(2), "second\n\n");
+}
+
+TEST_F(ChildProcessTest, tells_that_it_was_stopped) {
+  ChildProcess child("impactor", shell("kill -STOP $$"), log_);
+  const auto deadline = std::chrono::steady_clock::now() + long_enough;
+  while (child.describe_end() == "is running" && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(child.describe_end(), "is stopped (SIGSTOP, or a debugger); SIGCONT would let it go on");
 }
 
 TEST_F(ChildProcessTest, adds_to_the_environment) {

@@ -43,5 +43,20 @@ TEST(Rules, WarningsDoNotStopARun) {
   EXPECT_EQ(findings[1].path, "impactor.slug.speed");
 }
 
+TEST(Rules, AContactTooSoftIsToldBeforeTheRun) {
+  const auto findings = check_rules(load_text(minimal_scene, {"impactor.slug.particle.normal_stiffness=73 kN/m"}));
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_EQ(findings[0].severity, Severity::warning);
+  EXPECT_EQ(findings[0].path, "impactor.slug.particle.normal_stiffness");
+}
+
+TEST(Rules, ASlugArrivesBeforeTheEnd) {
+  EXPECT_EQ(
+      load_error(minimal_scene, {"time.end=1 ms", "impactor.slug.stand_off=1 m"}),
+      "--set: impactor.slug.stand_off: found 1 m: the slug would arrive after 0.0025 s, but the run ends at 0.001 "
+      "s; expected a smaller gap or a later time.end");
+  EXPECT_EQ(load_error(minimal_scene, {"time.end=1 ms", "impactor.slug.stand_off=1 mm"}), "accepted");
+}
+
 }  // namespace
 }  // namespace grainstep::scene

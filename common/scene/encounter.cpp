@@ -1,0 +1,88 @@
+#include "scene/encounter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/groups.hpp"
+#include "scene/number_text.hpp"
+
+namespace grainstep::scene {
+namespace {
+
+using Findings = std::vector<Finding>;
+
+std::string metres(double value) { return rounded_text(value) + " m"; }
+
+void slug_moves(const Slug& slug, Findings& findings) {
+  if (slug.speed() > 0) return;
+  findings.push_back({Severity::warning, "impactor.slug.speed", "a slug at rest: nothing will hit the structure"});
+}
+
+void slug_is_no_wider(const Scene& scene, Findings& findings) {
+  const double half_width = scene.impactor().slug().half_width();
+  const double half_span = scene.structure().half_span();
+  if (half_width <= half_span) return;
+  findings.push_back({Severity::warning, "impactor.slug.half_width",
+                      "the slug (" + metres(half_width) + ") is wider than the structure (structure.half_span is " +
+                          metres(half_span) + "): what passes beside it loads nothing"});
+}
+
+/// A slug at an angle moves sideways as it comes down; about that nothing is said.
+void slug_is_above_the_structure(const Scene& scene, Findings& findings) {
+  const Slug& slug = scene.impactor().slug();
+  const double nearest = std::abs(slug.offset()) - slug.half_width();
+  const double half_span = scene.structure().half_span();
+  if (slug.angle() > 0 || nearest < half_span) return;
+  findings.push_back({Severity::error, "impactor.slug.offset",
+                      "found " + metres(slug.offset()) + ": the slug begins " + metres(nearest) +
+                          " from mid-span and would fly past the structure, which ends at " + metres(half_span)});
+}
+
+void slug_arrives(const Scene& scene, Findings& findings) {
+  const Groups g = groups(scene);
+  if (g.arrival < g.end) return;
+  findings.push_back({Severity::error, "impactor.slug.stand_off",
+                      "found " + metres(scene.impactor().slug().stand_off()) + ": the slug would arrive after " +
+                          rounded_text(g.arrival) + " s, but the run ends at " + rounded_text(g.end) +
+                          " s; expected a smaller gap or a later time.end"});
+}
+
+/// Largest overlap (2.1) of one particle that meets a rigid wall head-on, m: a damped oscillator that starts at
+/// `speed` with mass m on Kn, whose damping ratio returns the restitution.
+double head_on_overlap(const Scene& scene) {
+  const Slug& slug = scene.impactor().slug();
+  const Particle& particle = slug.particle();
+  const double d = particle.diameter();
+  const bool sphere = scene.symmetry() == SYMMETRY_AXISYMMETRIC;
+  const double volume = std::numbers::pi * d * d * (sphere ? d / 6.0 : scene.depth() / 4.0);
+  const double frequency = std::sqrt(particle.normal_stiffness() / (particle.density() * volume));
+  const double decay = -std::log(particle.restitution()) / std::numbers::pi;  // zeta/sqrt(1 - zeta^2)
+  return slug.speed() / frequency * std::exp(-decay * std::atan2(1.0, decay));
+}
+
+/// What the guard of the run will say, before the run.
+void contact_turns_particles_round(const Scene& scene, Findings& findings) {
+  const double overlap = head_on_overlap(scene) / scene.impactor().slug().particle().diameter();
+  const double allowed = scene.guards().overlap();
+  if (overlap <= allowed) return;
+  findings.push_back({Severity::warning, "impactor.slug.particle.normal_stiffness",
+                      "too soft for this speed: a particle that hits a wall head-on overlaps it by " +
+                          rounded_text(overlap) + " of its diameter, and guards.overlap stops a run at " +
+                          rounded_text(allowed) + "; the overlap falls with the root of the stiffness"});
+}
+
+}  // namespace
+
+void check_encounter(const Scene& scene, Findings& findings) {
+  const bool foam = scene.impactor().type() == Impactor::TYPE_FOAM;
+  if (!foam) {
+    slug_is_no_wider(scene, findings);
+    slug_is_above_the_structure(scene, findings);
+    slug_moves(scene.impactor().slug(), findings);
+    contact_turns_particles_round(scene, findings);
+  }
+  if (scene.impactor().slug().speed() > 0) slug_arrives(scene, findings);
+}
+
+}  // namespace grainstep::scene
