@@ -49,8 +49,7 @@ class Checker {
   void references() {
     for (int i = 0; i < plan_.study.reference_size(); ++i) {
       const std::string path = "reference." + std::to_string(i);
-      const auto is_it = [&](const PlannedPoint& point) { return point.id == plan_.study.reference(i); };
-      if (std::none_of(plan_.points.begin(), plan_.points.end(), is_it)) {
+      if (point_of(plan_, plan_.study.reference(i)) == nullptr) {
         complain(path, "'" + plan_.study.reference(i) + "' is not a point of this study" +
                            place_hint(plan_.study.reference(i)));
       }
@@ -73,15 +72,10 @@ class Checker {
   }
 
   void plots() {
-    std::set<std::string> names;
     for (int i = 0; i < plan_.study.plots_size(); ++i) {
       const Plot& plot = plan_.study.plots(i);
       const std::string path = "plots." + std::to_string(i);
-      const bool taken = !names.insert(slug(plot.name())).second;
-      if (taken || slug(plot.name()) != plot.name() || plot.name() == "table" || plot.name() == "series" ||
-          plot.name() == "study") {
-        complain(path + ".name", "'" + plot.name() + "' is taken, or cannot be the name of a file");
-      }
+      file_name(path + ".name", plot.name());
       expression(path + ".x", plot.x());
       expression(path + ".y", plot.y());
       for (int k = 0; k < plot.curves_size(); ++k) curve(path + ".curves." + std::to_string(k), plot.curves(k));
@@ -93,7 +87,27 @@ class Checker {
     }
   }
 
+  void snapshots() {
+    for (int i = 0; i < plan_.study.snapshots_size(); ++i) {
+      const Snapshots& snapshots = plan_.study.snapshots(i);
+      const std::string path = "snapshots." + std::to_string(i);
+      file_name(path + ".name", snapshots.name());
+      const PlannedPoint* point = point_of(plan_, snapshots.on());
+      if (point == nullptr) {
+        complain(path + ".on", "'" + snapshots.on() + "' is not a point of this study" + place_hint(snapshots.on()));
+      } else if (point->preparation.scene.output().snapshots() == 0) {
+        complain(path + ".on", "'" + snapshots.on() + "' records no snapshots; set output.snapshots for it");
+      }
+    }
+  }
+
  private:
+  /// Of a picture, beside the tables.
+  void file_name(const std::string& path, const std::string& name) {
+    const bool taken = !files_.insert(slug(name)).second;
+    if (taken || slug(name) != name) complain(path, "'" + name + "' is taken, or cannot be the name of a file");
+  }
+
   /// @param for_all later expressions may use them.
   void column_list(const google::protobuf::RepeatedPtrField<Column>& columns, const std::string& list, bool for_all) {
     std::set<std::string> names;
@@ -158,6 +172,7 @@ class Checker {
   Complaints& complaints_;
   std::vector<std::string> known_;
   std::set<std::string> places_;
+  std::set<std::string> files_ = {"table", "series", "study"};
 };
 
 }  // namespace
@@ -168,6 +183,7 @@ void check_names(const Plan& plan, Complaints& complaints) {
   checker.columns();
   checker.findings();
   checker.plots();
+  checker.snapshots();
 }
 
 }  // namespace grainstep::study

@@ -163,25 +163,26 @@ std::string origin_of_runs(const Report& report) {
 }  // namespace
 
 std::string page_markdown(const Report& report, const std::string& command,
-                          const std::function<std::string(const Plot&)>& picture_of) {
+                          const std::function<std::string(const std::string&)>& picture_of) {
   const Study& study = report.plan.study;
   std::string out = "# " + study.title() + "\n\n<!-- Written by grainstep study; do not edit. -->\n\n";
   if (!study.text().empty()) out += study.text() + (study.text().ends_with('\n') ? "\n" : "\n\n");
-  for (const Plot& plot : study.plots()) {
-    const std::string picture = picture_of(plot);
-    if (!picture.empty())
-      out += "![" + (plot.title().empty() ? study.title() : plot.title()) + "](" + picture + ")\n\n";
-  }
+  const auto show = [&](const std::string& name, const std::string& title) {
+    const std::string picture = picture_of(name);
+    if (!picture.empty()) out += "![" + (title.empty() ? study.title() : title) + "](" + picture + ")\n\n";
+  };
+  for (const Snapshots& snapshots : study.snapshots()) show(snapshots.name(), snapshots.title());
+  for (const Plot& plot : study.plots()) show(plot.name(), plot.title());
   out += stated(report) + reported(report) + series_table(report) + run_table(report);
   return out + "\nMade by `" + command + "`: " + origin_of_runs(report);
 }
 
 void write_page(const Report& report, const fs::path& root, const fs::path& page, const std::string& command) {
-  const auto picture_of = [&](const Plot& plot) -> std::string {
-    const fs::path drawn = root / (plot.name() + ".png");
+  const auto picture_of = [&](const std::string& name) -> std::string {
+    const fs::path drawn = root / (name + ".png");
     std::error_code error;
     if (!fs::exists(drawn, error)) return "";
-    const std::string suffix = plot.name() == "plot" ? "" : "-" + plot.name();
+    const std::string suffix = name == "plot" ? "" : "-" + name;
     const fs::path link = fs::path("images") / (page.stem().string() + suffix + ".png");
     fs::create_directories((page.parent_path() / link).parent_path(), error);
     fs::copy_file(drawn, page.parent_path() / link, fs::copy_options::overwrite_existing, error);

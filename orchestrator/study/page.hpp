@@ -9,9 +9,9 @@
 namespace grainstep::study {
 
 /// Markdown. @param command that makes the page again.
-/// @param picture_of the link to the picture of a plot, relative to the page; empty: there is none.
+/// @param picture_of the link to the picture of this name, relative to the page; empty: there is none.
 [[nodiscard]] std::string page_markdown(const Report& report, const std::string& command,
-                                        const std::function<std::string(const Plot&)>& picture_of);
+                                        const std::function<std::string(const std::string&)>& picture_of);
 
 /// Writes the page, and copies the pictures to `images/` beside it, as <page>.png or <page>-<plot>.png.
 /// @throws OutputError

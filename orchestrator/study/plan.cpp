@@ -195,4 +195,10 @@ Plan load_plan(const fs::path& file, Fidelity fidelity) {
   return plan;
 }
 
+const PlannedPoint* point_of(const Plan& plan, const std::string& id) {
+  const auto found =
+      std::find_if(plan.points.begin(), plan.points.end(), [&](const PlannedPoint& point) { return point.id == id; });
+  return found == plan.points.end() ? nullptr : &*found;
+}
+
 }  // namespace grainstep::study

@@ -38,6 +38,9 @@ enum class Fidelity {
 /// Reads the study and prepares all of its points. @throws InputError with everything that is wrong, one line each.
 [[nodiscard]] Plan load_plan(const std::filesystem::path& file, Fidelity fidelity = Fidelity::recommended);
 
+/// The point called `id`; nullptr: there is none.
+[[nodiscard]] const PlannedPoint* point_of(const Plan& plan, const std::string& id);
+
 /// A directory's name that reads like `name`: letters, digits, '.', '_', '+', '=' and '-'.
 [[nodiscard]] std::string slug(const std::string& name);
 

@@ -147,7 +147,7 @@ int study(const StudyOptions& options) {
   const std::vector<Verdict> verdicts = judge(plan, outcomes, numbers);
   const Report report{.plan = plan, .outcomes = outcomes, .numbers = numbers, .verdicts = verdicts};
   write_tables(report, root);
-  if (plan.study.plots_size() > 0 && whole) draw(root);
+  if (plan.study.plots_size() + plan.study.snapshots_size() > 0 && whole) draw(root);
   if (!options.page.empty() && whole)
     write_page(report, root, options.page,
                "grainstep study " + options.study.string() + (options.full ? " --full" : ""));

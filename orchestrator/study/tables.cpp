@@ -100,6 +100,17 @@ Json plot_json(const Report& report, const Plot& plot) {
   return out;
 }
 
+Json snapshots_json(const Report& report, const Snapshots& snapshots, const fs::path& root) {
+  Json out = {{"name", snapshots.name()},
+              {"title", snapshots.title().empty() ? report.plan.study.title() : snapshots.title()},
+              {"directory", nullptr},
+              {"times", snapshots.times()}};
+  const auto point = static_cast<std::size_t>(point_of(report.plan, snapshots.on()) - report.plan.points.data());
+  const Outcome& outcome = report.outcomes[point];
+  if (outcome.state == Outcome::State::done) out["directory"] = relative_to(root, outcome.directory);
+  return out;
+}
+
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json point_json(const Report& report, std::size_t i, const fs::path& root) {
@@ -187,16 +198,15 @@ std::string curves_csv(const Report& report, const Plot& plot) {
 
 std::string study_json(const Report& report, const fs::path& root) {
   const Study& study = report.plan.study;
-  Json out = {{"title", study.title()},
-              {"results_version", orchestrator::results_version},
-              {"points", Json::array()},
-              {"findings", Json::array()},
-              {"plots", Json::array()}};
+  Json out = {{"title", study.title()},  {"results_version", orchestrator::results_version},
+              {"points", Json::array()}, {"findings", Json::array()},
+              {"plots", Json::array()},  {"snapshots", Json::array()}};
   for (std::size_t i = 0; i < report.plan.points.size(); ++i) out["points"].push_back(point_json(report, i, root));
   for (int i = 0; i < study.findings_size(); ++i) {
     out["findings"].push_back(finding_json(study.findings(i), report.verdicts[static_cast<std::size_t>(i)]));
   }
   for (const Plot& plot : study.plots()) out["plots"].push_back(plot_json(report, plot));
+  for (const Snapshots& one : study.snapshots()) out["snapshots"].push_back(snapshots_json(report, one, root));
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -129,6 +129,10 @@ TEST(Plan, ExpressionsAreCheckedBeforeAnythingRuns) {
   EXPECT_THAT(files.error(a + "reference: [c]\n"), HasSubstr("'c' is not a point of this study"));
   EXPECT_THAT(files.error(a + "plots: [{ x: 1 +, y: 1 }]\n"), HasSubstr("plots.0.x: '1 +': expected a number"));
   EXPECT_THAT(files.error(a + "plots: [{ x: 1, y: 1 }, { x: 1, y: 1 }]\n"), HasSubstr("'plot' is taken"));
+  EXPECT_THAT(files.error(a + "snapshots: [{ name: table, on: a, times: [1] }]\n"), HasSubstr("'table' is taken"));
+  EXPECT_THAT(files.error(a + "snapshots: [{ name: x, on: b, times: [1] }]\n"), HasSubstr("'b' is not a point"));
+  EXPECT_THAT(files.error(a + "set: [output.snapshots=0]\nsnapshots: [{ name: x, on: a, times: [1] }]\n"),
+              HasSubstr("'a' records no snapshots"));
   EXPECT_THAT(files.error(a + "plots: [{ name: ../x, x: 1, y: 1 }]\n"), HasSubstr("cannot be the name of a file"));
   EXPECT_THAT(files.error(a + "findings: [{ statement: s, on: a, value: 1, expected: 1 }]\n"),
               HasSubstr("`expected` and `tolerance` go together"));

@@ -33,6 +33,9 @@ series_columns:
 plots:
   - { x: seed, y: peak_deflection, log_x: true, marks: [{ x: 1, y: 2, label: m }], levels: [{ y: 0.2 }] }
   - { name: means, kind: series, x: mean(seed), y: max(peak_deflection) }
+snapshots:
+  - { name: two, title: of two, on: seeds/seed=2, times: [0.1, 1.0] }
+  - { name: later, on: far, times: [0.5] }
 )yaml";
 
 class ReportTest : public ::testing::Test {
@@ -105,14 +108,18 @@ TEST_F(ReportTest, TheJsonSaysHowToDraw) {
   EXPECT_EQ(json["plots"][0]["y_label"], "peak_deflection");
   EXPECT_EQ(json["plots"][0]["marks"][0]["label"], "m");
   EXPECT_EQ(json["plots"][0]["levels"][0]["axis"], "y");
+  EXPECT_EQ(json["snapshots"][0]["directory"], "runs/seeds/seed=2");
+  EXPECT_EQ(json["snapshots"][0]["times"], (std::vector<double>{0.1, 1.0}));
+  EXPECT_EQ(json["snapshots"][1]["directory"], nullptr);
   EXPECT_EQ(json["findings"][1]["verdict"], "FAILS");
 }
 
 TEST_F(ReportTest, ThePageSaysWhatIsStatedAndWhatCameOut) {
-  const std::string page =
-      page_markdown(report(), "grainstep study x.yaml", [](const Plot&) { return std::string("images/x.png"); });
+  const std::string page = page_markdown(report(), "grainstep study x.yaml",
+                                         [](const std::string& name) { return "images/" + name + ".png"; });
   EXPECT_THAT(page, HasSubstr("# T\n"));
-  EXPECT_THAT(page, HasSubstr("![T](images/x.png)"));
+  EXPECT_THAT(page, HasSubstr("![T](images/plot.png)"));
+  EXPECT_THAT(page, HasSubstr("![of two](images/two.png)"));
   EXPECT_THAT(page, HasSubstr("| mean | figure 4 | 0.2 +- 1% | 0.2 | "));
   EXPECT_THAT(page, HasSubstr("| too small |  | at least 0.15 | 0.1 |  | **does not hold** |"));
   EXPECT_THAT(page, HasSubstr("| told | seeds | 50 |"));
