@@ -15,7 +15,7 @@ help:
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
 	@echo "make bench     the speed table of bench/README.md"
 	@echo "make accuracy  speed against error again, with quiet timings: docs/accuracy.md and what check recommends (half an hour)"
-	@echo "make figures   the paper's two-dimensional figures again: docs/benchmarks (half an hour; finished runs are kept)"
+	@echo "make figures   the paper's figures again: docs/benchmarks (half an hour; finished runs are kept)"
 	@echo "make docs      regenerate the generated pages of docs/"
 
 packages:
@@ -70,7 +70,7 @@ accuracy: build
 	@cp $(ACCURACY)/series.csv orchestrator/fidelity.csv
 
 # The paper's figures. A statement that does not hold (exit code 3) is a result; anything else stops.
-FIGURES := fig04 fig05 fig06 fig07 fig08 fig09 fig10 fig11 fig12 fig13 fig14 figA1 figA2 contact
+FIGURES := fig04 fig05 fig06 fig07 fig08 fig09 fig10 fig11 fig12 fig13 fig14 fig18 figA1 figA2 contact
 figures: build
 	@mkdir -p runs/studies
 	@for figure in $(FIGURES); do \
