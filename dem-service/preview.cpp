@@ -24,6 +24,7 @@ ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetr
   preview.contact_time = model.contact_time;
   preview.stable_step = model.stable_step;
   preview.preferred_step = model.preferred_step;
+  preview.process_bytes = bytes_of_program;
   preview.memory_bytes = bytes_of_program + bytes_per_particle * model.particles;
   preview.seconds_per_particle_step = seconds_of_dynamics;
   return preview;

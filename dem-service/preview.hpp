@@ -15,6 +15,7 @@ struct ImpactorPreview {
   double stable_step = 0.0;                ///< s
   double preferred_step = 0.0;             ///< s, what `auto` takes: t_e/10
   std::uint64_t memory_bytes = 0;          ///< estimate
+  std::uint64_t process_bytes = 0;         ///< the part of it that every rank takes
   double seconds_per_particle_step = 0.0;  ///< estimate, one core
 };
 

@@ -6,6 +6,6 @@
 namespace grainstep::orchestrator {
 
 /// Prints what a scene would be. Throws InputError for a scene that cannot be computed.
-void check(const SceneOptions& options);
+void check(const CheckOptions& options);
 
 }  // namespace grainstep::orchestrator

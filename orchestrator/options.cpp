@@ -35,6 +35,14 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   return run;
 }
 
+CLI::App* add_check(CLI::App& app, CheckOptions& options) {
+  CLI::App* check = app.add_subcommand("check", "Validate a scene and say what it would cost");
+  add_scene(*check, options.scene);
+  check->add_option("--ranks", options.ranks, "MPI ranks of the impactor, to say its cost for")
+      ->check(CLI::Range(1, 4096));
+  return check;
+}
+
 CLI::App* add_study(CLI::App& app, StudyOptions& options) {
   CLI::App* study = app.add_subcommand("study", "Compute a set of scenes: table, plots; resumes where it stopped");
   study->add_option("study", options.study, "Study file (docs/user/study-reference.md)")->required();
@@ -60,11 +68,10 @@ CommandLine parse(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", build_info().version);
   RunOptions run_options;
-  SceneOptions check_options;
+  CheckOptions check_options;
   ShowOptions show_options;
   const CLI::App* run = add_run(app, run_options);
-  CLI::App* check = app.add_subcommand("check", "Validate a scene and say what it would cost");
-  add_scene(*check, check_options);
+  const CLI::App* check = add_check(app, check_options);
   CLI::App* show = app.add_subcommand("show", "What a finished or running run says");
   show->add_option("directory", show_options.directory, "Directory of a run")->required();
   show->add_flag("--json", show_options.json, "summary.json, or progress, as JSON");

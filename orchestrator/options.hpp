@@ -28,6 +28,11 @@ struct RunOptions {
   std::vector<std::string> external;  ///< "impactor", "structure"
 };
 
+struct CheckOptions {
+  SceneOptions scene;
+  int ranks = 1;  ///< of the impactor, that the cost is told for
+};
+
 struct ShowOptions {
   std::filesystem::path directory;
   bool json = false;
@@ -53,7 +58,7 @@ struct StudyOptions {
 struct CommandLine {
   std::optional<int> exit_code;
   std::optional<RunOptions> run;
-  std::optional<SceneOptions> check;
+  std::optional<CheckOptions> check;
   std::optional<ShowOptions> show;
   std::optional<StudyOptions> study;
 };

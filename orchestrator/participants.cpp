@@ -49,10 +49,6 @@ Participants::Participants(const scene::Scene& scene, const RunOptions& options)
       structure_{wire::STRUCTURE, is_external(wire::STRUCTURE, scene, options), false, {"grainstep-fe"}, nullptr} {
   if (!impactor_.mpi) {
     impactor_.command = {"grainstep-fe", "--role", "impactor"};
-    if (options.ranks > 1) {
-      throw InputError("--ranks " + std::to_string(options.ranks) +
-                       ": an impactor without particles is one process; leave --ranks out");
-    }
   }
   open(impactor_);
   open(structure_);

@@ -26,6 +26,7 @@ ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
           .stable_step = slug.stable_step,
           .preferred_step = slug.preferred_step,
           .memory_bytes = slug.memory_bytes,
+          .process_bytes = slug.process_bytes,
           .seconds_per_step = static_cast<double>(slug.particles) * slug.seconds_per_particle_step};
 }
 
@@ -53,6 +54,10 @@ Preparation prepare(const RunOptions& options) {
 Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   Preparation out;
   out.scene = std::move(loaded);
+  if (options.ranks > 1 && !has_particles(out.scene)) {
+    throw InputError("--ranks " + std::to_string(options.ranks) +
+                     ": an impactor without particles is one process; leave --ranks out");
+  }
   out.hash = scene::scene_hash(out.scene);
   out.yaml = scene::to_yaml(out.scene);
   for (scene::Finding& finding : scene::check_rules(out.scene)) {

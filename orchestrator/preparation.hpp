@@ -24,7 +24,8 @@ struct ImpactorPreview {
   double stable_step = 0.0;
   double preferred_step = 0.0;
   std::uint64_t memory_bytes = 0;
-  double seconds_per_step = 0.0;  ///< estimate, one core
+  std::uint64_t process_bytes = 0;  ///< the part of it that every rank takes, whatever its share of particles
+  double seconds_per_step = 0.0;    ///< estimate, one core
 };
 
 struct Preparation {

@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 import numpy as np
-from runs import SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
+from runs import BIN, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
 
 PLATE = SOURCE / "configs/small/plate-quick.yaml"
 ROUND_OFF = 1e-12  # relative, over some thousand steps
@@ -96,6 +96,13 @@ class SlugOfSpheres(unittest.TestCase):
                 out = pathlib.Path(scratch) / "run"
                 subprocess.run([os.environ["GRAINSTEP_IN_PROCESS"], PLATE, out, *shorter], check=True)
                 self.assertEqual(datasets(one.out / "results.h5"), datasets(out / "results.h5"))
+
+    def test_check_says_what_ranks_would_take(self):
+        said = subprocess.run([BIN / "grainstep", "check", SOURCE / "configs/liu2013/plate-monolithic.yaml", "--ranks", "64"],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertRegex(said.stdout, r"particles +6250000,")
+        self.assertRegex(said.stdout, r"memory .* MiB each of 64 ranks\)")
 
     def test_two_ranks_give_the_same_response(self):
         with Run("--ranks", "2", scene=PLATE) as two:
