@@ -89,6 +89,19 @@ class RecorderTest : public ::testing::Test {
     return out;
   }
 
+  [[nodiscard]] auto summary_so_far() const {
+    return summary({.status = "done",
+                    .reason = "",
+                    .scene = scene_,
+                    .groups = groups_,
+                    .plan = plan_,
+                    .findings = recorder_->findings(),
+                    .impactor = {},
+                    .structure = {},
+                    .impactor_timing = {},
+                    .structure_timing = {}});
+  }
+
   scene::Scene scene_ = scene_of_one_segment();
   scene::Groups groups_ = scene::groups(scene_);
   StepPlan plan_;
@@ -119,16 +132,7 @@ TEST_F(RecorderTest, AConstantForceIsAConstantPressureInRowsAndProfiles) {
 
 TEST_F(RecorderTest, TheSummaryScalesWhatWasFound) {
   for (std::uint64_t n = 0; n <= plan_.windows; ++n) window(n);
-  const auto s = summary({.status = "done",
-                          .reason = "",
-                          .scene = scene_,
-                          .groups = groups_,
-                          .plan = plan_,
-                          .findings = recorder_->findings(),
-                          .impactor = {},
-                          .structure = {},
-                          .impactor_timing = {},
-                          .structure_timing = {}});
+  const auto s = summary_so_far();
   const double pressure = 4000.0;
   EXPECT_NEAR(s["early_pressure"].get<double>(), pressure / (200.0 * 2.0 * 2.0), 1e-9);
   EXPECT_NEAR(s["transmitted_impulse"].get<double>(), pressure * 0.4 / (200.0 * 1.0 * 2.0), 1e-9);
@@ -140,16 +144,7 @@ TEST_F(RecorderTest, ACoresCompressionIsInTheSummary) {
   cored_ = true;
   for (std::uint64_t n = 0; n <= 10; ++n) window(n);
   EXPECT_EQ(recorder_->findings().peak_core_compression, 0.3);
-  const auto s = summary({.status = "done",
-                          .reason = "",
-                          .scene = scene_,
-                          .groups = groups_,
-                          .plan = plan_,
-                          .findings = recorder_->findings(),
-                          .impactor = {},
-                          .structure = {},
-                          .impactor_timing = {},
-                          .structure_timing = {}});
+  const auto s = summary_so_far();
   EXPECT_DOUBLE_EQ(s["peak_core_compression"].get<double>(), 0.3);
   EXPECT_DOUBLE_EQ(s["peak_core_compression_time"].get<double>(), 2.0 / groups_.reference_time);
   EXPECT_NE(digest(s).find("core compression     0.300"), std::string::npos);
