@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "../tests/unit/dem-service/slice_rig.hpp"
@@ -90,22 +91,31 @@ void keep_shortest(std::vector<double>& best, const std::vector<double>& seconds
   for (std::size_t i = 0; i < best.size(); ++i) best[i] = std::min(best[i], seconds[i]);
 }
 
-void print(const Job& job, double end, int ranks, const std::vector<double>& alone, const std::vector<double>& shared) {
+struct Times {
+  std::vector<double> alone, shared, at_once;  ///< s, every part
+};
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+void print(const Job& job, double end, int ranks, const Times& times) {
   const auto particles = static_cast<double>(rig::model_of(job.setup).particles);
-  const double scale = 1e9 / (particles * static_cast<double>(job.part));
-  double sum_alone = 0.0;
-  double sum_shared = 0.0;
-  std::printf("%.0f spheres, ns per sphere and step\n  t_hat      1 rank   %d ranks  gain\n", particles, ranks);
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    const double part = end / static_cast<double>(alone.size());
-    std::printf("  %.2f-%.2f  %7.1f  %7.1f   %.2f\n", part * static_cast<double>(i), part * static_cast<double>(i + 1),
-                scale * alone[i], scale * shared[i], alone[i] / shared[i]);
-    sum_alone += alone[i];
-    sum_shared += shared[i];
+  const double steps = static_cast<double>(job.part) * job.start.impactor_steps();
+  const auto parts = static_cast<double>(times.alone.size());
+  const auto line = [&](const char* name, double alone, double shared, double at_once, double of) {
+    const double scale = 1e9 / (particles * steps * of);
+    std::printf("  %-10s %7.1f %10.1f %10.1f %8.2f %8.2f\n", name, scale * alone, scale * shared, scale * at_once,
+                alone / shared, ranks * alone / at_once);
+  };
+  std::printf("%.0f spheres, %.0f steps, ns per sphere and step\n", particles, steps * parts);
+  std::printf("  t_hat       1 rank    %d ranks  %d at once     gain  at most\n", ranks, ranks);
+  for (std::size_t i = 0; i < times.alone.size(); ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%.2f-%.2f", end / parts * static_cast<double>(i),
+                  end / parts * static_cast<double>(i + 1));
+    line(name, times.alone[i], times.shared[i], times.at_once[i], 1.0);
   }
-  std::printf("  whole      %7.1f  %7.1f   %.2f   (%.2f s and %.2f s)\n",
-              scale * sum_alone / static_cast<double>(alone.size()),
-              scale * sum_shared / static_cast<double>(alone.size()), sum_alone / sum_shared, sum_alone, sum_shared);
+  line("whole", sum(times.alone), sum(times.shared), sum(times.at_once), parts);
+  std::printf("  %.2f s alone, %.2f s shared\n", sum(times.alone), sum(times.shared));
 }
 
 }  // namespace
@@ -127,15 +137,16 @@ int main(int argc, char** argv) {
   job.start = rig::start_of(model.preferred_step, parts * job.part, 2);
   job.start.set_report_every(40);
   job.start.set_snapshot_every(0);
-  std::vector<double> alone;
-  std::vector<double> shared;
+  Times times;
   for (int i = 0; i < static_cast<int>(argument(3, 1.0)); ++i) {
     wait_for_all();
-    if (rank == 0) keep_shortest(alone, run_on(MPI_COMM_SELF, job));
+    if (rank == 0) keep_shortest(times.alone, run_on(MPI_COMM_SELF, job));
     wait_for_all();
-    keep_shortest(shared, run_on(MPI_COMM_WORLD, job));
+    keep_shortest(times.shared, run_on(MPI_COMM_WORLD, job));
+    wait_for_all();
+    keep_shortest(times.at_once, run_on(MPI_COMM_SELF, job));
   }
-  if (rank == 0) print(job, end, ranks, alone, shared);
+  if (rank == 0) print(job, end, ranks, times);
   MPI_Finalize();
   return 0;
 }

@@ -16,7 +16,7 @@ constexpr double kRing = 0.06;       // m, where the pulse begins
 constexpr double kWidth = 8e-3;      // m, of the pulse
 constexpr double kSpeed = 1e-2;      // m/s: small strains
 constexpr double kThrough = 0.09;    // m, way: the inner part has gone through the axis and stands at r = 30 mm
-constexpr double kGathered = 0.058;  // m: it stands about the axis, higher than it began
+constexpr double kGathered = 0.058;  // m: it stands about the axis
 constexpr int kModes = 80;           // the pulse holds wavelengths down to some millimetres: 40 would do
 
 double pulse(double r) { return kSpeed * std::exp(-std::pow((r - kRing) / kWidth, 2)); }
