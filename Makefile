@@ -4,7 +4,7 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages build demo test test-long verify sanitize bench accuracy figures docs clean
+.PHONY: help packages build demo test test-long verify sanitize bench bench-plates accuracy figures docs clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -14,6 +14,7 @@ help:
 	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
 	@echo "make bench     the speed table of bench/README.md"
+	@echo "make bench-plates  the same for slugs of spheres, two MPI ranks included"
 	@echo "make accuracy  speed against error again, with quiet timings: docs/accuracy.md and what check recommends (half an hour)"
 	@echo "make figures   the paper's figures again: docs/benchmarks (half an hour; finished runs are kept)"
 	@echo "make docs      regenerate the generated pages of docs/"
@@ -59,6 +60,9 @@ sanitize: packages
 
 bench: build
 	@$(PYTHON) bench/run --build $(BUILD) $(BENCH_OPTIONS)
+
+bench-plates: build
+	@$(PYTHON) bench/plates --build $(BUILD)
 
 # One run at a time, so that wall times are those of a run alone. ACCURACY_OPTIONS=--long adds the paper's resolution;
 # ACCURACY_REPEAT= keeps finished runs and their times.
