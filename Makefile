@@ -74,7 +74,7 @@ accuracy: build
 	@cp $(ACCURACY)/series.csv orchestrator/fidelity.csv
 
 # The paper's figures. A statement that does not hold (exit code 3) is a result; anything else stops.
-FIGURES := fig04 fig05 fig06 fig07 fig08 fig09 fig10 fig11 fig12 fig13 fig14 fig18 figA1 figA2 contact
+FIGURES := fig04 fig05 fig06 fig07 fig08 fig09 fig10 fig11 fig12 fig13 fig14 fig17a fig17b fig18 figA1 figA2 contact
 figures: build
 	@mkdir -p runs/studies
 	@for figure in $(FIGURES); do \
