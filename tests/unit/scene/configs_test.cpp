@@ -64,6 +64,19 @@ TEST(Configs, TheReferenceBeamIsThePapers) {
   EXPECT_EQ(scene.structure().mesh().refinement(), 15);
 }
 
+// Its H in millimetres wins over its m_bar; the head of the scene says how to get the other reading.
+TEST(Configs, TheReferencePlateHasBothReadings) {
+  for (const auto* const folder : {"liu2013", "small"}) {
+    const auto path = configs / folder / "plate-monolithic.yaml";
+    const Groups stated = groups(load_scene(path));
+    EXPECT_NEAR(stated.impulse_number, 0.67, 0.001);
+    EXPECT_NEAR(stated.areal_mass_ratio, 0.506, 0.0005);
+    const Groups other = groups(load_scene(path, {"impactor.slug.height=120mm", "impactor.slug.speed=401m/s"}));
+    EXPECT_NEAR(other.impulse_number, 0.67, 0.001);
+    EXPECT_NEAR(other.areal_mass_ratio, 0.405, 1e-12);
+  }
+}
+
 // (3.2) and (5.2), and the viscosity of (3.10) from the slug's speed unless the scene gives one.
 TEST(Configs, TheSandwichBeamsAreThePapers) {
   for (const auto& [name, thickness] :
