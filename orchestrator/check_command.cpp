@@ -101,8 +101,10 @@ void print_recommendation(double percent, const scene::Scene& scene) {
 
 void print_fidelity(const scene::Scene& scene) {
   if (!is_like_the_measured(scene)) {
+    const bool plate = scene.symmetry() == scene::SYMMETRY_AXISYMMETRIC;
     std::printf(
-        "expected error           not measured for this kind of scene (docs/accuracy.md has the monolithic beam)\n");
+        "expected error           not measured for this kind of scene (%s)\n",
+        plate ? "docs/accuracy-plates.md has the monolithic plate" : "docs/accuracy.md has the monolithic beam");
     return;
   }
   const Fidelity* one = fidelity_of(scene, measured_fidelities());
