@@ -71,7 +71,8 @@ TEST(Configs, TheReferencePlateHasBothReadings) {
     const Groups stated = groups(load_scene(path));
     EXPECT_NEAR(stated.impulse_number, 0.67, 0.001);
     EXPECT_NEAR(stated.areal_mass_ratio, 0.506, 0.0005);
-    const Groups other = groups(load_scene(path, {"impactor.slug.height=120mm", "impactor.slug.speed=401m/s"}));
+    const std::vector<std::string> shorter = {"impactor.slug.height=120mm", "impactor.slug.speed=401m/s"};
+    const Groups other = groups(load_scene(path, shorter));
     EXPECT_NEAR(other.impulse_number, 0.67, 0.001);
     EXPECT_NEAR(other.areal_mass_ratio, 0.405, 1e-12);
   }
