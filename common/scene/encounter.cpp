@@ -48,6 +48,26 @@ void slug_arrives(const Scene& scene, Findings& findings) {
                           " s; expected a smaller gap or a later time.end"});
 }
 
+/// Beyond a quarter of the slug's radius w_max is more than 2% too small, within an eighth 1%
+/// (docs/accuracy-plates.md).
+constexpr double largest_hole = 0.15;  // over the slug's radius
+
+/// Above a third of it grainstep-dem refuses the slice as too narrow for its spheres.
+constexpr double refused_hole = 1.0 / 3.0;
+
+void slice_reaches_the_axis(const Scene& scene, Findings& findings) {
+  if (scene.symmetry() != SYMMETRY_AXISYMMETRIC) return;
+  const Slug& slug = scene.impactor().slug();
+  const double hole = 0.5 * slug.particle().diameter() / std::sin(0.5 * slug.slice_angle());
+  if (hole <= largest_hole * slug.half_width() || hole > refused_hole * slug.half_width()) return;
+  findings.push_back({Severity::warning, "impactor.slug.slice_angle",
+                      "no sphere fits into the slice nearer to the axis than " + metres(hole) + ", " +
+                          rounded_text(hole / slug.half_width()) +
+                          " of the slug's radius: the plate will bend too little; take a wider slice or smaller "
+                          "particles, for a ratio of at most " +
+                          rounded_text(largest_hole)});
+}
+
 /// Largest overlap (2.1) of one particle that meets a rigid wall head-on, m: a damped oscillator that starts at
 /// `speed` with mass m on Kn, whose damping ratio returns the restitution.
 double head_on_overlap(const Scene& scene) {
@@ -81,6 +101,7 @@ void check_encounter(const Scene& scene, Findings& findings) {
     slug_is_above_the_structure(scene, findings);
     slug_moves(scene.impactor().slug(), findings);
     contact_turns_particles_round(scene, findings);
+    slice_reaches_the_axis(scene, findings);
   }
   if (scene.impactor().slug().speed() > 0) slug_arrives(scene, findings);
 }

@@ -50,6 +50,17 @@ TEST(Rules, AContactTooSoftIsToldBeforeTheRun) {
   EXPECT_EQ(findings[0].path, "impactor.slug.particle.normal_stiffness");
 }
 
+TEST(Rules, AHoleAtTheAxisIsToldBeforeTheRun) {
+  const auto plate = std::filesystem::path(GRAINSTEP_SOURCE_DIR) / "configs/small/plate-monolithic.yaml";
+  EXPECT_TRUE(check_rules(load_scene(plate)).empty());
+  const std::vector<std::string> narrow = {"impactor.slug.slice_angle=5 deg"};
+  const auto findings = check_rules(load_scene(plate, narrow));
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_EQ(findings[0].severity, Severity::warning);
+  EXPECT_EQ(findings[0].path, "impactor.slug.slice_angle");
+  EXPECT_THAT(findings[0].text, testing::HasSubstr("0.229256 of the slug's radius"));
+}
+
 TEST(Rules, ASlugArrivesBeforeTheEnd) {
   EXPECT_EQ(
       load_error(minimal_scene, {"time.end=1 ms", "impactor.slug.stand_off=1 m"}),
