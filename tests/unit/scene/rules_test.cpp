@@ -1,5 +1,6 @@
 #include "scene/rules.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scene_files.hpp"
