@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "contact/rest_on.hpp"
@@ -46,9 +47,9 @@ class PlainSlug {
 
   void create_particles(const dem::SlugModel& model) {
     const double radius = model.diameter / 2.0;
-    auto centres = dem::pack_at_random({{{radius, radius}}, {{model.half_width - radius, model.height - radius}}},
-                                       model.particles, model.diameter, model.seed);
-    contact::rest_on(surface::Polyline({{{-1.0, 0.0}}, {{1.0, 0.0}}}, {{0, 1}}), model.diameter, centres);
+    const std::vector<double> diameters(model.particles, model.diameter);
+    auto centres = dem::pack_at_random({{{0.0, 0.0}}, {{model.half_width, model.height}}}, diameters, model.seed);
+    contact::rest_on(surface::Polyline({{{-1.0, 0.0}}, {{1.0, 0.0}}}, {{0, 1}}), std::span(&radius, 1), centres);
     std::vector<int> id;
     const std::vector<int> type(centres.size(), 1);
     std::vector<double> x;

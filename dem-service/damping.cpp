@@ -73,4 +73,21 @@ double calibrated_damping(const Collision& collision, double dt) {
   return 0.5 * (low + high);
 }
 
+contact::DampingTable damping_table(const Collision& lightest, double heaviest, double dt) {
+  constexpr int last = contact::DampingTable::nodes - 1;
+  contact::DampingTable table;
+  table.scale = dt * std::sqrt(lightest.stiffness);
+  table.first = table.scale / std::sqrt(heaviest);
+  const double spacing = (table.scale / std::sqrt(lightest.effective_mass) - table.first) / last;
+  table.per_spacing = 1.0 / spacing;
+  for (int i = 0; i <= last; ++i) {
+    const double x = table.first + i * spacing;
+    Collision collision = lightest;
+    collision.effective_mass = table.scale * table.scale / (x * x);
+    table.value[i] = calibrated_damping(collision, dt) / x;
+  }
+  table.value[last + 1] = table.value[last];
+  return table;
+}
+
 }  // namespace grainstep::dem

@@ -2,6 +2,8 @@
 /// returns the same restitution once the collision is computed in steps.
 #pragma once
 
+#include "contact/damping_table.hpp"
+
 namespace grainstep::dem {
 
 /// A head-on collision of two bodies, seen as one body of the effective mass on a spring.
@@ -26,5 +28,8 @@ struct Collision {
 /// The damping rate (1/s) for which discrete_restitution() is `collision.restitution`; tends to continuum_damping() as
 /// dt goes to 0. Throws InputError where the step is too coarse for such a rate to exist.
 [[nodiscard]] double calibrated_damping(const Collision& collision, double dt);
+
+/// calibrated_damping() of all effective masses from `lightest.effective_mass` to `heaviest` (kg), for the step dt (s).
+[[nodiscard]] contact::DampingTable damping_table(const Collision& lightest, double heaviest, double dt);
 
 }  // namespace grainstep::dem

@@ -20,7 +20,7 @@ ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetr
   ImpactorPreview preview;
   preview.particles = model.particles;
   preview.particle_mass = model.mass;
-  preview.contact_mass = model.whole() * model.mass;
+  preview.contact_mass = model.whole() * model.mass_of(model.largest());
   preview.contact_time = model.contact_time;
   preview.stable_step = model.stable_step;
   preview.preferred_step = model.preferred_step;

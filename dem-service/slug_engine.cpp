@@ -54,7 +54,7 @@ SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup,
 void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) {
   if (particles.size() > std::numeric_limits<int>::max()) throw InputError("impactor.slug: more than 2^31 particles");
   const int count = static_cast<int>(particles.size());
-  const double room = 2.0 * model_.diameter;
+  const double room = 2.0 * model_.largest();
   surface::Vec3 low = particles.front().position;
   surface::Vec3 high = low;
   std::vector<int> identity(particles.size());
@@ -87,9 +87,11 @@ void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) 
                       0);
   LAMMPS_NS::Atom& atom = *session_.lammps().atom;
   for (int i = 0; i < atom.nlocal; ++i) {
-    atom.radius[i] = model_.diameter / 2.0;
-    atom.rmass[i] = model_.mass;
-    atom.omega[i][2] = particles[static_cast<std::size_t>(atom.tag[i] - 1)].spin;
+    const PlacedParticle& particle = particles[static_cast<std::size_t>(atom.tag[i] - 1)];
+    const double diameter = particle.diameter > 0.0 ? particle.diameter : model_.diameter;
+    atom.radius[i] = diameter / 2.0;
+    atom.rmass[i] = model_.mass_of(diameter);
+    atom.omega[i][2] = particle.spin;
   }
 }
 
@@ -98,8 +100,9 @@ void SlugEngine::set_laws(const ContactLaw& pair, double dt, double skin) {
   session_.command(text_of("pair_style %s %.17g %.17g %.17g %.17g", PairStyle::style_name, pair.normal_stiffness,
                            pair.tangential_stiffness, pair.damping_rate, pair.friction));
   session_.command("pair_coeff * *");
+  PairStyle::find(session_.lammps()).damp_by_mass(pair.damping_table);
   session_.command(text_of("neighbor %.17g bin", skin));
-  session_.command(text_of("neigh_modify delay 0 every 1 check yes binsize %.17g", model_.diameter + skin));
+  session_.command(text_of("neigh_modify delay 0 every 1 check yes binsize %.17g", model_.largest() + skin));
   session_.command(text_of("timestep %.17g", dt));
   session_.command(model_.spheres() ? "fix motion all nve/sphere" : "fix motion all nve/sphere disc");
   int ranks = 1;

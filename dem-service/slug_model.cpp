@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <sstream>
 
@@ -21,7 +22,20 @@ void check_particle(const scene::Particle& particle, std::ostringstream& text) {
        << particle.diameter() << " m, " << particle.density() << " kg/m^3, " << particle.normal_stiffness() << " N/m";
 }
 
-void check_slice(const scene::Slug& slug, std::ostringstream& text) {
+void check_sizes(const scene::Slug& slug, std::ostringstream& text) {
+  if (!slug.has_size_distribution()) return;
+  for (const scene::SizeProblem& problem : scene::size_problems(slug.size_distribution())) {
+    text << (text.str().empty() ? "" : "\n") << "impactor.slug.size_distribution" << (problem.path.empty() ? "" : ".")
+         << problem.path << ": " << problem.text;
+  }
+}
+
+scene::Sizes sizes_of(const scene::Slug& slug, scene::Symmetry symmetry) {
+  return {slug, symmetry == scene::SYMMETRY_AXISYMMETRIC ? 3 : 2};
+}
+
+/// `largest`: diameter, m.
+void check_slice(const scene::Slug& slug, double largest, std::ostringstream& text) {
   if (!(slug.slice_angle() > 0.0) || slug.slice_angle() > most_slice) {
     text << "impactor.slug.slice_angle: found " << slug.slice_angle() << " rad, expected above 0 and up to "
          << most_slice;
@@ -32,9 +46,9 @@ void check_slice(const scene::Slug& slug, std::ostringstream& text) {
   } else if (slug.angle() != 0.0 || slug.offset() != 0.0 || slug.confined()) {
     text << "impactor.slug: angle, offset and confined are for discs in the plane; a slug of revolution comes along "
             "its axis and spreads freely: leave them out";
-  } else if (2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle()) < 3.0 * slug.particle().diameter()) {
+  } else if (2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle()) < 3.0 * largest) {
     text << "impactor.slug.slice_angle: the slice is " << 2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle())
-         << " m wide at the slug's rim, expected at least three particle diameters of " << slug.particle().diameter()
+         << " m wide at the slug's rim, expected at least three particle diameters of " << largest
          << " m: take a wider slice or smaller particles";
   }
 }
@@ -58,20 +72,22 @@ void check_plane(const scene::Slug& slug, double depth, bool mirror, std::ostrin
 void check(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
   std::ostringstream text;
   const scene::Slug& slug = impactor.slug();
-  const double diameter = slug.particle().diameter();
   if (impactor.type() != scene::Impactor::TYPE_SLUG) {
     text << "impactor.type: grainstep-dem computes a slug, not " << scene::Impactor::Type_Name(impactor.type());
   } else if (symmetry == scene::SYMMETRY_UNSET) {
     text << "symmetry: grainstep-dem computes plane_strain and axisymmetric, not " << scene::Symmetry_Name(symmetry);
   }
   if (text.str().empty()) check_particle(slug.particle(), text);
-  if (text.str().empty() && (!(slug.half_width() > diameter) || !(slug.height() > diameter))) {
+  if (text.str().empty()) check_sizes(slug, text);
+  if (!text.str().empty()) throw InputError(text.str());
+  const double diameter = sizes_of(slug, symmetry).largest() * slug.particle().diameter();
+  if ((!(slug.half_width() > diameter) || !(slug.height() > diameter))) {
     text << "impactor.slug: half_width " << slug.half_width() << " m and height " << slug.height()
          << " m must exceed the particle diameter, " << diameter << " m";
   }
   if (text.str().empty()) {
     if (symmetry == scene::SYMMETRY_AXISYMMETRIC) {
-      check_slice(slug, text);
+      check_slice(slug, diameter, text);
     } else {
       check_plane(slug, depth, mirror, text);
     }
@@ -88,7 +104,9 @@ void set_particles(const scene::Particle& particle, double depth, SlugModel& mod
     solid = std::numbers::pi * d * d * d / 6.0;
     room = 0.5 * model.slice * model.half_width * model.half_width * model.height;
   }
-  model.mass = model.spheres() ? particle.density() * solid : particle.density() * depth * solid;
+  if (!model.sizes.equal()) solid *= model.sizes.mean_of_power(model.spheres() ? 3 : 2);
+  model.density = model.spheres() ? particle.density() : particle.density() * depth;
+  model.mass = model.density * solid;
   const double particles = std::round(model.relative_density * room / solid);
   if (!(particles <= most_particles)) {
     std::ostringstream text;
@@ -101,6 +119,11 @@ void set_particles(const scene::Particle& particle, double depth, SlugModel& mod
 }
 
 }  // namespace
+
+double SlugModel::mass_of(double of_diameter) const {
+  const double d = of_diameter;
+  return density * (spheres() ? std::numbers::pi * d * d * d / 6.0 : std::numbers::pi * d * d / 4.0);
+}
 
 SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
   check(impactor, symmetry, depth, mirror);
@@ -121,6 +144,7 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   model.tail_speed = slug.has_tail_speed() ? slug.tail_speed() : slug.speed();
   model.confined = slug.confined();
   model.diameter = particle.diameter();
+  model.sizes = sizes_of(slug, symmetry);
   set_particles(particle, depth, model);
 
   const double kn = particle.normal_stiffness();
@@ -129,8 +153,9 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   model.surface_law.friction = contact.has_friction() ? contact.friction() : particle.friction();
   model.surface_law.tension_cutoff = contact.tension_cutoff();
   model.lever_is_radius = contact.lever_arm() == scene::SurfaceContact::LEVER_ARM_RADIUS;
-  model.pair = {kn, model.mass / 2.0, particle.restitution(), false};
-  model.on_surface = {kn, model.mass, contact.has_restitution() ? contact.restitution() : particle.restitution(),
+  const double lightest = model.mass_of(model.smallest());
+  model.pair = {kn, lightest / 2.0, particle.restitution(), false};
+  model.on_surface = {kn, lightest, contact.has_restitution() ? contact.restitution() : particle.restitution(),
                       contact.tension_cutoff()};
   model.contact_time = contact_time(model.pair);
   model.stable_step = largest_stable_step(model.pair, model.pair_law.tangential_stiffness,
@@ -139,16 +164,26 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   return model;
 }
 
-ContactLaw calibrated_pair_law(const SlugModel& model, double dt) {
-  ContactLaw law = model.pair_law;
-  law.damping_rate = calibrated_damping(model.pair, dt);
+namespace {
+
+/// `heaviest`: kg, the largest effective mass.
+ContactLaw calibrated(ContactLaw law, const SlugModel& model, const Collision& lightest, double heaviest, double dt) {
+  if (model.sizes.equal()) {
+    law.damping_rate = calibrated_damping(lightest, dt);
+  } else {
+    law.damping_table = std::make_shared<const contact::DampingTable>(damping_table(lightest, heaviest, dt));
+  }
   return law;
 }
 
+}  // namespace
+
+ContactLaw calibrated_pair_law(const SlugModel& model, double dt) {
+  return calibrated(model.pair_law, model, model.pair, model.mass_of(model.largest()) / 2.0, dt);
+}
+
 ContactLaw calibrated_surface_law(const SlugModel& model, double dt) {
-  ContactLaw law = model.surface_law;
-  law.damping_rate = calibrated_damping(model.on_surface, dt);
-  return law;
+  return calibrated(model.surface_law, model, model.on_surface, model.mass_of(model.largest()), dt);
 }
 
 double largest_stable_step(const Collision& pair, double tangential_stiffness, const Neighbours& neighbours) {

@@ -7,6 +7,7 @@
 #include "contact/contact_law.hpp"
 #include "dem-service/damping.hpp"
 #include "grainstep/scene.pb.h"
+#include "scene/sizes.hpp"
 
 namespace grainstep::dem {
 
@@ -27,21 +28,27 @@ struct SlugModel {
   double tail_speed = 0.0;  ///< m/s; linear to it from `speed` at the head
   bool confined = false;    ///< by walls at |x1| = half_width
 
-  double diameter = 0.0;
-  double mass = 0.0;  ///< of one particle, rho_s b pi D^2/4 or rho_s pi D^3/6
+  double diameter = 0.0;  ///< m, mean as the scene counts it
+  scene::Sizes sizes;     ///< over `diameter`
+  double density = 0.0;   ///< kg/m^2, rho_s b of discs; kg/m^3, rho_s of spheres
+  double mass = 0.0;      ///< kg, mean of one particle
   std::uint64_t particles = 0;
 
-  ContactLaw pair_law;           ///< damping_rate is left open: it depends on the step
+  ContactLaw pair_law;           ///< damping is left open: it depends on the step
   ContactLaw surface_law;        ///< likewise
-  Collision pair;                ///< two equal particles, m_eff = m/2
-  Collision on_surface;          ///< a particle on the structure, m_eff = m
+  Collision pair;                ///< two of the smallest particles, m_eff = m/2
+  Collision on_surface;          ///< one of the smallest particles on the structure, m_eff = m
   bool lever_is_radius = false;  ///< else the distance from the centre to the touched point
 
-  double contact_time = 0.0;    ///< t_e of a pair, continuum (2.4)
+  double contact_time = 0.0;    ///< t_e of a pair of the smallest, continuum (2.4)
   double stable_step = 0.0;     ///< see largest_stable_step()
   double preferred_step = 0.0;  ///< t_e/10, or the stable step where that is smaller
 
   [[nodiscard]] bool spheres() const { return slice > 0.0; }
+  [[nodiscard]] double smallest() const { return sizes.smallest() * diameter; }  ///< m, diameter
+  [[nodiscard]] double largest() const { return sizes.largest() * diameter; }    ///< m, diameter
+  /// kg, of a particle of this diameter: rho_s b pi D^2/4 or rho_s pi D^3/6.
+  [[nodiscard]] double mass_of(double of_diameter) const;
   /// What is modelled of the whole: sums over a slice's particles times this are those of the full circle.
   [[nodiscard]] double whole() const { return spheres() ? 2.0 * std::numbers::pi / slice : 1.0; }
   /// Rotational inertia over m R^2.
@@ -52,7 +59,8 @@ struct SlugModel {
 [[nodiscard]] SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
                                         bool mirror);
 
-/// The pair law and the surface law with their damping rates calibrated for the step dt (s).
+/// The pair law and the surface law with their damping calibrated for the step dt (s): one rate for equal particles,
+/// else a table over the effective mass.
 [[nodiscard]] ContactLaw calibrated_pair_law(const SlugModel& model, double dt);
 [[nodiscard]] ContactLaw calibrated_surface_law(const SlugModel& model, double dt);
 
@@ -67,9 +75,9 @@ inline constexpr Neighbours neighbours_of_a_disc{6.0, 18.0, 3.0};
 /// Twelve: 2 Kn/m along four times the normals, 7 Ks/m (2 + 2/0.4) along eight times the tangents.
 inline constexpr Neighbours neighbours_of_a_sphere{8.0, 56.0, 4.0};
 
-/// A bound on the stable step of densely packed particles, s. Explicit central differences with a dashpot that sees the
-/// velocity half a step earlier are stable for every mode of frequency omega and damping rate c as long as
-/// (omega dt)^2 + 2 c dt < 4. docs/theory/particles.md has the derivation.
+/// A bound on the stable step of densely packed particles, of which `pair` are the lightest, s. Explicit central
+/// differences with a dashpot that sees the velocity half a step earlier are stable for every mode of frequency omega
+/// and damping rate c as long as (omega dt)^2 + 2 c dt < 4. docs/theory/particles.md has the derivation.
 [[nodiscard]] double largest_stable_step(const Collision& pair, double tangential_stiffness,
                                          const Neighbours& neighbours = neighbours_of_a_disc);
 

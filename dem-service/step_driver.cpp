@@ -14,7 +14,7 @@ SurfaceContactSettings contact_settings(const SlugModel& model, const StepSettin
           .shape = model.spheres() ? contact::Shape::revolved : contact::Shape::extruded,
           .whole = model.whole(),
           .lever_is_radius = model.lever_is_radius,
-          .largest_radius = model.diameter / 2.0,
+          .largest_radius = model.largest() / 2.0,
           .particle_margin = settings.margin,
           .surface_margin = settings.margin / 2.0};
 }
@@ -62,9 +62,9 @@ void StepDriver::check_speed(const ParticleArrays& particles) {
 // A surface that moves several radii in one step could leave a particle behind it that was never near it.
 void StepDriver::check_surface_speed() {
   const double speed = surface_.fastest();
-  if (speed * settings_.dt <= model_.diameter / 2.0) return;
+  if (speed * settings_.dt <= model_.smallest() / 2.0) return;
   std::ostringstream text;
-  text << "a node of the surface moves at " << speed << " m/s, more than a particle's radius in one step of "
+  text << "a node of the surface moves at " << speed << " m/s, more than the smallest particle's radius in one step of "
        << settings_.dt << " s: the structure's computation is unstable, or steps.impactor is too large";
   exchange_.fail(text.str());
 }

@@ -8,7 +8,9 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
+#include "contact/damping_table.hpp"
 #include "surface/vec.hpp"
 
 namespace grainstep::contact {
@@ -21,6 +23,12 @@ struct ContactLaw {
   double damping_rate = 0.0;          ///< 1/s, gamma_n; times the effective mass it is the dashpot's constant
   double friction = 0.0;              ///< mu
   bool tension_cutoff = false;        ///< no pull: the total normal force is never below zero
+  std::shared_ptr<const DampingTable> damping_table =
+      nullptr;  ///< instead of damping_rate where contacts differ in mass
+
+  [[nodiscard]] double damping(double effective_mass) const {
+    return damping_table ? contact::damping_rate(*damping_table, effective_mass) : damping_rate;
+  }
 };
 
 /// The branch vector r n, from the touched point to the particle's centre or from one centre to the other. The law is
@@ -57,7 +65,8 @@ struct NormalForce {
 /// share, so that the spring's energy stays.
 [[nodiscard]] inline NormalForce normal_force(const ContactLaw& law, const Branch& branch, double overlap,
                                               const Vec3& relative, double effective_mass) {
-  const double damping = effective_mass * law.damping_rate * dot(relative, branch.vector) * branch.per_squared;
+  const double damping =
+      effective_mass * law.damping(effective_mass) * dot(relative, branch.vector) * branch.per_squared;
   NormalForce force{law.normal_stiffness * overlap * branch.per_length, -damping};
   // Inside the structure both parts are divided by a negative length.
   if (law.tension_cutoff && force.total() * branch.length < 0.0) force.dashpot = -force.spring;

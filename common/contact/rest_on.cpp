@@ -5,33 +5,39 @@
 #include <limits>
 #include <numeric>
 
+#include "base/assert.hpp"
 #include "base/error.hpp"
 
 namespace grainstep::contact {
 
 using surface::Vec2;
 
-void rest_on(const surface::Polyline& surface, double diameter, std::vector<Vec2>& centres) {
+void rest_on(const surface::Polyline& surface, std::span<const double> radii, std::vector<Vec2>& centres) {
   std::vector<std::uint32_t> all(surface.segment_count());
   std::iota(all.begin(), all.end(), 0U);
-  const double radius = diameter / 2.0;
+  GS_ASSERT(radii.size() == 1 || radii.size() == centres.size(), "as many radii as discs");
+  const auto radius = [&](std::size_t i) { return radii[radii.size() == 1 ? 0 : i]; };
   double top = -std::numeric_limits<double>::infinity();
   for (const Vec2& node : surface.nodes()) top = std::max(top, node[1]);
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vec2& p : centres) lowest = std::min(lowest, p[1]);
-  for (Vec2& p : centres) p[1] += top + radius - lowest;
+  std::size_t lowest = 0;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (centres[i][1] - centres[lowest][1] < radius(i) - radius(lowest)) lowest = i;
+  }
+  const double shift = centres.empty() ? 0.0 : top + radius(lowest) - centres[lowest][1];
+  for (Vec2& p : centres) p[1] += shift;
   const auto smallest_gap = [&] {
     double gap = std::numeric_limits<double>::infinity();
-    for (const Vec2& p : centres) {
-      if (p[1] - top - radius > gap) continue;  // higher above the highest node than the gap found so far
-      gap = std::min(gap, surface.closest(p, all).distance - radius);
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      const Vec2& p = centres[i];
+      if (p[1] - top - radius(i) > gap) continue;  // higher above the highest node than the gap found so far
+      gap = std::min(gap, surface.closest(p, all).distance - radius(i));
     }
     return gap;
   };
   // Every disc may sink by the smallest gap without touching, since a distance changes no faster than the disc moves.
   // Repeated, this converges to first contact from above. A billionth of a diameter is left, so that round-off cannot
   // make an overlap of it.
-  const double left = 1e-9 * diameter;
+  const double left = 2e-9 * std::ranges::min(radii);
   constexpr int many = 100000;
   for (int i = 0; i < many; ++i) {
     const double sink = smallest_gap() - left;

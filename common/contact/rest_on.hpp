@@ -1,6 +1,7 @@
 /// @file First touch: what hits is put where it just touches the surface.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "surface/polyline.hpp"
@@ -8,7 +9,8 @@
 namespace grainstep::contact {
 
 /// Lowers (or raises) all discs together until the first one just touches the surface: the smallest gap is zero but for
-/// round-off, and never negative. Throws InputError when no disc stands above the surface.
-void rest_on(const surface::Polyline& surface, double diameter, std::vector<surface::Vec2>& centres);
+/// round-off, and never negative. `radii`, m: one for each disc, or one for all. Throws InputError when no disc stands
+/// above the surface.
+void rest_on(const surface::Polyline& surface, std::span<const double> radii, std::vector<surface::Vec2>& centres);
 
 }  // namespace grainstep::contact

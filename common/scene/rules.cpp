@@ -8,6 +8,7 @@
 #include "scene/groups.hpp"
 #include "scene/number_text.hpp"
 #include "scene/read.hpp"
+#include "scene/sizes.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -25,8 +26,21 @@ bool is_whole(double value) {
 
 bool divides_evenly(double ratio) { return is_whole(ratio) || is_whole(1 / ratio); }
 
-void slug_holds_particles(const Slug& slug, Findings& findings) {
-  const double diameter = slug.particle().diameter();
+bool sizes_are_described(const Slug& slug, Findings& findings) {
+  if (!slug.has_size_distribution()) return true;
+  const std::string path = "impactor.slug.size_distribution";
+  const auto problems = size_problems(slug.size_distribution());
+  for (const SizeProblem& problem : problems) {
+    findings.push_back({Severity::error, problem.path.empty() ? path : path + "." + problem.path, problem.text});
+  }
+  return problems.empty();
+}
+
+void slug_holds_particles(const Scene& scene, Findings& findings) {
+  const Slug& slug = scene.impactor().slug();
+  if (!sizes_are_described(slug, findings)) return;
+  const int dimension = scene.symmetry() == SYMMETRY_AXISYMMETRIC ? 3 : 2;
+  const double diameter = Sizes(slug, dimension).largest() * slug.particle().diameter();
   const double smallest = std::min(2 * slug.half_width(), slug.height());
   if (diameter <= smallest) return;
   findings.push_back({Severity::error, "impactor.slug.particle.diameter",
@@ -236,7 +250,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
   const bool foam = scene.impactor().type() == Impactor::TYPE_FOAM;
   if (foam) foam_follows_from(scene.impactor(), findings);
   if (slug) {
-    if (!foam) slug_holds_particles(scene.impactor().slug(), findings);
+    if (!foam) slug_holds_particles(scene, findings);
     if (foam) foam_stays_on_the_span(scene, findings);
     slice_is_read(scene, findings);
     check_encounter(scene, findings);

@@ -2,6 +2,8 @@
 /// Plain data, for it is shared with files compiled for other instruction sets.
 #pragma once
 
+#include "contact/damping_table.hpp"
+
 namespace grainstep::dem {
 
 constexpr int batch_lanes = 8;       ///< the kernel works on so many pairs at a time, whatever the vectors' length
@@ -9,10 +11,11 @@ constexpr int batch_capacity = 128;  ///< a multiple of batch_lanes; its arrays 
 
 /// (2.1), (2.2) between particles.
 struct PairLaw {
-  double normal_stiffness = 0.0;      ///< N/m, Kn
-  double tangential_stiffness = 0.0;  ///< N/m, Ks
-  double damping_rate = 0.0;          ///< 1/s, gamma_n
-  double friction = 0.0;              ///< mu
+  double normal_stiffness = 0.0;                         ///< N/m, Kn
+  double tangential_stiffness = 0.0;                     ///< N/m, Ks
+  double damping_rate = 0.0;                             ///< 1/s, gamma_n
+  double friction = 0.0;                                 ///< mu
+  const contact::DampingTable* damping_table = nullptr;  ///< read instead of damping_rate where sizes are mixed
 };
 
 /// Which parts of the law a scene needs.
@@ -20,6 +23,7 @@ struct PairFeatures {
   int dimension = 2;
   bool friction = true;  ///< else neither tangential spring nor torque
   bool energy = true;    ///< the sums are wanted
+  bool mixed = false;    ///< particles of several masses: gamma_n comes from the table
 };
 
 /// What a touching pair hands on to the next step. Vectors have `dimension` components, torques one in the plane.
@@ -65,9 +69,9 @@ using PairKernel = void (*)(const PairLaw& law, double grown, PairBatch& batch, 
 /// Copies for this machine, the fastest first.
 struct PairKernels {
   const char* name;
-  PairKernel kernel[2][2][2];  ///< [dimension - 2][friction][energy]
+  PairKernel kernel[2][2][2][2];  ///< [dimension - 2][friction][energy][mixed]
   [[nodiscard]] PairKernel of(const PairFeatures& features) const {
-    return kernel[features.dimension - 2][features.friction ? 1 : 0][features.energy ? 1 : 0];
+    return kernel[features.dimension - 2][features.friction ? 1 : 0][features.energy ? 1 : 0][features.mixed ? 1 : 0];
   }
 };
 

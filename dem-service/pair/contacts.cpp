@@ -103,17 +103,22 @@ void PairContacts::evaluate(const PairArrays& particles, double grown) {
 }
 
 /// Without a branch: whether a pair touches cannot be foretold.
-template <int D>
-void PairContacts::find_near(const double* position) {
+template <int D, bool Mixed>
+void PairContacts::find_near(const PairArrays& particles) {
+  const double* position = particles.position;
   near_.resize(pairs_.size() + 1);
   std::uint32_t* near = near_.data();
   const Pair* pairs = pairs_.data();
   const auto count = static_cast<std::uint32_t>(pairs_.size());
-  const double nearly = nearly_;
+  double nearly = nearly_;
   std::size_t found = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
     near[found] = k;
     const double squared = squared_distance<D>(position + at(pairs[k].first), position + at(pairs[k].second));
+    if constexpr (Mixed) {
+      const double reach = particles.radius[pairs[k].first] + particles.radius[pairs[k].second];
+      nearly = reach * reach;
+    }
     found += squared < nearly ? 1U : 0U;
   }
   near_count_ = found;
@@ -122,7 +127,7 @@ void PairContacts::find_near(const double* position) {
 template <int D, bool Friction>
 void PairContacts::sweep(const PairArrays& particles, double grown) {
   constexpr int values = history_layout(D, Friction).values;
-  find_near<D>(particles.position);
+  features_.mixed ? find_near<D, true>(particles) : find_near<D, false>(particles);
   std::swap(before_, now_);
   now_.reserve(near_count_, values);
   sums_ = {};

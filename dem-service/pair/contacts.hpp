@@ -70,8 +70,8 @@ class PairContacts {
     void end(int values);
   };
 
-  template <int D>
-  void find_near(const double* position);
+  template <int D, bool Mixed>
+  void find_near(const PairArrays& particles);
   template <int D, bool Friction>
   void sweep(const PairArrays& particles, double grown);
   template <int D, bool Friction>
@@ -83,7 +83,7 @@ class PairContacts {
   PairFeatures features_;
   HistoryLayout layout_;
   PairKernel kernel_;
-  double nearly_ = 0.0;  ///< m^2: pairs further apart cannot touch
+  double nearly_ = 0.0;  ///< m^2: pairs further apart cannot touch; of mixed sizes each pair's own radii say so
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> near_;
   std::size_t near_count_ = 0;

@@ -4,7 +4,7 @@
 namespace grainstep::dem {
 namespace {
 
-template <int D, bool Friction, bool Energy>
+template <int D, bool Friction, bool Energy, bool Mixed>
 void evaluate(const PairLaw& law, double grown, PairBatch& batch, double* const* history, PairSums& sums) {
   constexpr int values = history_layout(D, Friction).values;
   const PairLaw constants = law;
@@ -14,7 +14,7 @@ void evaluate(const PairLaw& law, double grown, PairBatch& batch, double* const*
   for (int first = 0; first < batch.count; first += batch_lanes) {
 #pragma omp simd
     for (int lane = 0; lane < batch_lanes; ++lane) {
-      touch<D, Friction, Energy>(constants, grown, batch, mine, first + lane, lane, sum);
+      touch<D, Friction, Energy, Mixed>(constants, grown, batch, mine, first + lane, lane, sum);
     }
   }
   sums = sum;
@@ -27,10 +27,16 @@ void evaluate(const PairLaw& law, double grown, PairBatch& batch, double* const*
 #define GS_TEXT_(a) #a
 #define GS_TEXT(a) GS_TEXT_(a)
 
+#define GS_MASSES(D, FRICTION)                                                     \
+  {                                                                                \
+    {&evaluate<D, FRICTION, false, false>, &evaluate<D, FRICTION, false, true>}, { \
+      &evaluate<D, FRICTION, true, false>, &evaluate<D, FRICTION, true, true>      \
+    }                                                                              \
+  }
+
 extern const PairKernels GS_JOIN(pair_kernels_, GRAINSTEP_PAIR_ISA);
 const PairKernels GS_JOIN(pair_kernels_, GRAINSTEP_PAIR_ISA) = {
     GS_TEXT(GRAINSTEP_PAIR_ISA),
-    {{{&evaluate<2, false, false>, &evaluate<2, false, true>}, {&evaluate<2, true, false>, &evaluate<2, true, true>}},
-     {{&evaluate<3, false, false>, &evaluate<3, false, true>}, {&evaluate<3, true, false>, &evaluate<3, true, true>}}}};
+    {{GS_MASSES(2, false), GS_MASSES(2, true)}, {GS_MASSES(3, false), GS_MASSES(3, true)}}};
 
 }  // namespace grainstep::dem

@@ -88,7 +88,7 @@ GS_PAIR_INLINE void book(const PairLaw& law, double grown, const double* before,
 }
 
 /// One pair: its force into the batch, its history brought up to date.
-template <int D, bool Friction, bool Energy>
+template <int D, bool Friction, bool Energy, bool Mixed>
 GS_PAIR_INLINE void touch(const PairLaw& law, double grown, PairBatch& batch, double* const* history, int l, int lane,
                           PairSums& sums) {
   constexpr HistoryLayout at = history_layout(D, Friction);
@@ -110,7 +110,9 @@ GS_PAIR_INLINE void touch(const PairLaw& law, double grown, PairBatch& batch, do
   const double overlap = batch.reach[l] - length;
   const double approach = product<D>(velocity, branch);
   const double effective_mass = batch.mass_product[l] / batch.mass_sum[l];
-  after[0] = effective_mass * law.damping_rate * approach * per_squared;
+  double damping_rate = law.damping_rate;
+  if constexpr (Mixed) damping_rate = contact::damping_rate(*law.damping_table, effective_mass);
+  after[0] = effective_mass * damping_rate * approach * per_squared;
   const double push = law.normal_stiffness * overlap * per_length - after[0];
 
   double force[3];

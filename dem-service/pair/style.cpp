@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "base/assert.hpp"
 
@@ -59,6 +60,13 @@ void PairStyle::settings(int argument_count, char** arguments) {
   features_.dimension = domain->dimension;
   features_.friction = law_.friction > 0.0 && law_.tangential_stiffness > 0.0;
   features_.energy = argument_count < 6 || std::strcmp(arguments[5], "no") != 0;
+}
+
+void PairStyle::damp_by_mass(std::shared_ptr<const contact::DampingTable> table) {
+  damping_table_ = std::move(table);
+  law_.damping_table = damping_table_.get();
+  features_.mixed = damping_table_ != nullptr;
+  contacts_.reset();
 }
 
 void PairStyle::allocate() {
@@ -116,12 +124,20 @@ void PairStyle::to_particles(Partners& partners) const {
 
 void PairStyle::from_particles(const Partners& partners) {
   contacts_->clear(largest_radius_);
+  // LAMMPS's list reaches for all pairs as far as for two of the largest.
+  const auto out_of_reach = [&](int i, int j) {
+    double squared = 0.0;
+    for (int c = 0; c < 3; ++c) squared += (atom->x[i][c] - atom->x[j][c]) * (atom->x[i][c] - atom->x[j][c]);
+    const double reach = atom->radius[i] + atom->radius[j] + neighbor->skin;
+    return squared > reach * reach;
+  };
   for (int k = 0; k < list->inum; ++k) {
     const int i = list->ilist[k];
     const bool touched = partners.first_of(i) != Partners::none;
     const int* neighbours = list->firstneigh[i];
     for (int n = 0; n < list->numneigh[i]; ++n) {
       const int j = neighbours[n] & NEIGHMASK;
+      if (features_.mixed && out_of_reach(i, j)) continue;
       contacts_->add(i, j);
       if (!touched) continue;
       if (const Partners::Entry* entry = partners.find(i, atom->tag[j])) contacts_->adopt(entry->value);

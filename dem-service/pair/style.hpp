@@ -4,6 +4,8 @@
 ///     pair_style grainstep/hooke Kn Ks gamma_n mu [energy yes|no]
 ///     pair_coeff * *
 ///
+/// Where particles differ in mass, damp_by_mass() replaces gamma_n between these commands and the run.
+///
 /// The law of `gran/hooke/history Kn Ks gamma_n 0 mu 0`, bit for bit (tests/verification/dem_pair_style_test.cpp).
 /// Needs atom_style sphere, newton on and `comm_modify vel yes`; knows no frozen or rigid particles and no pressure.
 /// docs/decisions/0009-own-pair-style.md says why.
@@ -14,6 +16,7 @@
 #include <lammps/fix.h>
 #include <lammps/pair.h>
 
+#include <memory>
 #include <optional>
 
 #include "dem-service/pair/contacts.hpp"
@@ -31,6 +34,9 @@ class PairStyle : public LAMMPS_NS::Pair {
   static void register_style(LAMMPS_NS::LAMMPS& lammps);
   /// The instance's pair style, which is this one.
   static PairStyle& find(LAMMPS_NS::LAMMPS& lammps);
+
+  /// gamma_n for every effective mass, instead of the one of the command. nullptr: the command's.
+  void damp_by_mass(std::shared_ptr<const contact::DampingTable> table);
 
   explicit PairStyle(LAMMPS_NS::LAMMPS* lammps);
   ~PairStyle() override;
@@ -57,6 +63,7 @@ class PairStyle : public LAMMPS_NS::Pair {
 
   PairLaw law_;
   PairFeatures features_;
+  std::shared_ptr<const contact::DampingTable> damping_table_;
   std::optional<PairContacts> contacts_;
   double largest_radius_ = 0.0;
 };

@@ -1,6 +1,7 @@
 #include "fe-service/foam/block.hpp"
 
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "contact/rest_on.hpp"
@@ -37,7 +38,7 @@ double height_of_first_touch(const FoamModel& model, const Body& body, const sur
     nodes.push_back({{place.x, place.y}});
   }
   const double before = nodes.front()[1];
-  contact::rest_on(surface, 2.0 * model.radius, nodes);
+  contact::rest_on(surface, std::span(&model.radius, 1), nodes);
   return nodes.front()[1] - before;
 }
 

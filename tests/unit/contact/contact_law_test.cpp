@@ -5,11 +5,11 @@
 namespace grainstep::contact {
 namespace {
 
-constexpr ContactLaw law{.normal_stiffness = 100.0,
-                         .tangential_stiffness = 40.0,
-                         .damping_rate = 3.0,
-                         .friction = 0.5,
-                         .tension_cutoff = false};
+const ContactLaw law{.normal_stiffness = 100.0,
+                     .tangential_stiffness = 40.0,
+                     .damping_rate = 3.0,
+                     .friction = 0.5,
+                     .tension_cutoff = false};
 
 const Branch upwards = branch_along({{0.0, 1.0, 0.0}}, 0.25, 0.27);
 

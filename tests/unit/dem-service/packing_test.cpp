@@ -16,7 +16,9 @@ namespace {
 using surface::Polyline;
 using surface::Vec2;
 
-constexpr PackingBox box{{{0.5, 0.5}}, {{29.5, 59.5}}};  // a slug of 30 x 60 diameters
+constexpr PackingBox box{{{0.0, 0.0}}, {{30.0, 60.0}}};  // diameters
+
+std::vector<double> equal(std::uint64_t count, double diameter = 1.0) { return std::vector<double>(count, diameter); }
 
 double smallest_distance(const std::vector<Vec2>& centres) {
   double smallest = 1e300;
@@ -32,7 +34,7 @@ std::uint64_t count_for(double fraction) {
 
 TEST(Packing, NoOverlapInsideTheBoxAndTheNumberAskedFor) {
   for (const double fraction : {0.1, 0.2, 0.45}) {
-    const auto centres = pack_at_random(box, count_for(fraction), 1.0, 1);
+    const auto centres = pack_at_random(box, equal(count_for(fraction)), 1);
     EXPECT_EQ(centres.size(), count_for(fraction));
     EXPECT_GE(smallest_distance(centres), 1.0);
     for (const Vec2& p : centres) {
@@ -42,27 +44,27 @@ TEST(Packing, NoOverlapInsideTheBoxAndTheNumberAskedFor) {
 }
 
 TEST(Packing, SameSeedSamePlacesOtherSeedOtherPlaces) {
-  const auto first = pack_at_random(box, 100, 1.0, 7);
-  EXPECT_EQ(first, pack_at_random(box, 100, 1.0, 7));
-  EXPECT_NE(first, pack_at_random(box, 100, 1.0, 8));
+  const auto first = pack_at_random(box, equal(100), 7);
+  EXPECT_EQ(first, pack_at_random(box, equal(100), 7));
+  EXPECT_NE(first, pack_at_random(box, equal(100), 8));
 }
 
 // The generator's bits are fixed by the standard and scaled by hand: these places hold on every machine.
 TEST(Packing, PlacesAreReproducibleEverywhere) {
-  const auto centres = pack_at_random({{{0, 0}}, {{1, 1}}}, 1, 0.1, 1);
+  const auto centres = pack_at_random({{{-0.05, -0.05}}, {{1.05, 1.05}}}, equal(1, 0.1), 1);
   EXPECT_DOUBLE_EQ(centres.front()[0], static_cast<double>(2469588189546311528ULL >> 11) * 0x1p-53);
   EXPECT_DOUBLE_EQ(centres.front()[1], static_cast<double>(2516265689700432462ULL >> 11) * 0x1p-53);
 }
 
 TEST(Packing, ReachesItsLimitInABigSlug) {
-  const PackingBox big{{{0.5, 0.5}}, {{99.5, 299.5}}};
+  const PackingBox big{{{0.0, 0.0}}, {{100.0, 300.0}}};
   const auto count = static_cast<std::uint64_t>(0.52 * 100 * 300 / (std::numbers::pi / 4));
-  EXPECT_EQ(pack_at_random(big, count, 1.0, 1).size(), count);
+  EXPECT_EQ(pack_at_random(big, equal(count), 1).size(), count);
 }
 
 TEST(Packing, WhatDoesNotFitIsAnInputErrorThatNamesWhatWasReached) {
   try {
-    (void)pack_at_random(box, count_for(0.6), 1.0, 1);
+    (void)pack_at_random(box, equal(count_for(0.6)), 1);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("solid fraction 0.5"));
@@ -83,9 +85,9 @@ TEST(Packing, RestsOnTheSurfaceWithoutOverlap) {
   const Polyline hilly({{{-50, 3.0}}, {{10, 9.0}}, {{14, -2.0}}, {{50, 0.0}}}, {{0, 1}, {1, 2}, {2, 3}});
   for (const Polyline& ground : {flat, hilly}) {
     for (const double height : {-20.0, 0.0, 70.0}) {
-      auto centres = pack_at_random(box, 300, 1.0, 1);
+      auto centres = pack_at_random(box, equal(300), 1);
       for (Vec2& p : centres) p[1] += height;
-      contact::rest_on(ground, 1.0, centres);
+      contact::rest_on(ground, equal(1, 0.5), centres);
       EXPECT_GT(smallest_gap(ground, centres), 0.0);
       EXPECT_LT(smallest_gap(ground, centres), 1e-8);
     }

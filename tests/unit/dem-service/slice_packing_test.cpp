@@ -14,7 +14,9 @@ namespace {
 using surface::Vec3;
 
 constexpr double angle = std::numbers::pi / 6.0;
-constexpr PackingSlice slice{.outer = 19.5, .low = 0.5, .high = 19.5, .angle = angle, .wall_gap = 0.5};
+constexpr PackingSlice slice{.outer = 20.0, .low = 0.0, .high = 20.0, .angle = angle};
+
+std::vector<double> equal(std::uint64_t count) { return std::vector<double>(count, 1.0); }
 
 std::uint64_t count_for(double fraction) {
   return static_cast<std::uint64_t>(std::llround(fraction * 0.5 * angle * 20 * 20 * 20 / (std::numbers::pi / 6.0)));
@@ -22,7 +24,7 @@ std::uint64_t count_for(double fraction) {
 
 TEST(SlicePacking, NoOverlapBetweenThePlanesAndTheNumberAskedFor) {
   for (const double fraction : {0.05, 0.2, 0.3}) {
-    const std::vector<Vec3> centres = pack_at_random(slice, count_for(fraction), 1.0, 1);
+    const std::vector<Vec3> centres = pack_at_random(slice, equal(count_for(fraction)), 1);
     ASSERT_EQ(centres.size(), count_for(fraction));
     double smallest = 1e300;
     for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -40,23 +42,23 @@ TEST(SlicePacking, RingsOfEqualAreaHoldEqualNumbers) {
   constexpr std::size_t rings = 10;
   const std::uint64_t count = count_for(0.2);
   std::vector<int> found(rings, 0);
-  const double inner2 = slice.inner() * slice.inner();
-  for (const Vec3& p : pack_at_random(slice, count, 1.0, 3)) {
-    const double part = (p[0] * p[0] + p[2] * p[2] - inner2) / (slice.outer * slice.outer - inner2);
+  const double inner2 = slice.inner(0.5) * slice.inner(0.5);
+  for (const Vec3& p : pack_at_random(slice, equal(count), 3)) {
+    const double part = (p[0] * p[0] + p[2] * p[2] - inner2) / (19.5 * 19.5 - inner2);
     ++found[std::min(rings - 1, static_cast<std::size_t>(part * rings))];
   }
   for (const int number : found) EXPECT_NEAR(number, static_cast<double>(count) / rings, 1.0);
 }
 
 TEST(SlicePacking, SameSeedSamePlacesOtherSeedOtherPlaces) {
-  const auto first = pack_at_random(slice, 100, 1.0, 7);
-  EXPECT_EQ(first, pack_at_random(slice, 100, 1.0, 7));
-  EXPECT_NE(first, pack_at_random(slice, 100, 1.0, 8));
+  const auto first = pack_at_random(slice, equal(100), 7);
+  EXPECT_EQ(first, pack_at_random(slice, equal(100), 7));
+  EXPECT_NE(first, pack_at_random(slice, equal(100), 8));
 }
 
 TEST(SlicePacking, WhatDoesNotFitIsAnInputErrorThatNamesWhatWasReached) {
   try {
-    (void)pack_at_random(slice, count_for(0.45), 1.0, 1);
+    (void)pack_at_random(slice, equal(count_for(0.45)), 1);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("solid fraction 0.3"));

@@ -39,8 +39,8 @@ struct Packing {
 
 Packing pack(double fraction, std::uint64_t count, std::uint64_t seed) {
   Packing result{std::sqrt(static_cast<double>(count) * section / fraction), {}};
-  const PackingBox box{{{0.5, 0.5}}, {{result.side - 0.5, result.side - 0.5}}};
-  result.centres = pack_at_random(box, count, 1.0, seed);
+  const PackingBox box{{{0.0, 0.0}}, {{result.side, result.side}}};
+  result.centres = pack_at_random(box, std::vector<double>(count, 1.0), seed);
   std::sort(result.centres.begin(), result.centres.end(), [](const Vec2& a, const Vec2& b) { return a[0] < b[0]; });
   return result;
 }
