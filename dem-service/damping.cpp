@@ -51,7 +51,7 @@ double discrete_restitution(const Collision& collision, double gamma, double dt)
   return sum / phases;
 }
 
-double calibrated_damping(const Collision& collision, double dt) {
+double calibrated_damping(const Collision& collision, double dt, double tolerance) {
   if (collision.restitution >= 1.0) return 0.0;
   const double most = 1.0 / dt;  // the dashpot takes the whole approach rate in one step: beyond it, it would overshoot
   double low = 0.0;
@@ -66,7 +66,7 @@ double calibrated_damping(const Collision& collision, double dt) {
          << contact_time(collision) << " s): take a smaller steps.impactor";
     throw InputError(text.str());
   }
-  for (int i = 0; i < 60 && high - low > 1e-13 * high; ++i) {
+  for (int i = 0; i < 60 && high - low > tolerance * high; ++i) {
     const double middle = 0.5 * (low + high);
     (discrete_restitution(collision, middle, dt) > collision.restitution ? low : high) = middle;
   }
@@ -75,6 +75,7 @@ double calibrated_damping(const Collision& collision, double dt) {
 
 contact::DampingTable damping_table(const Collision& lightest, double heaviest, double dt) {
   constexpr int last = contact::DampingTable::nodes - 1;
+  constexpr double tolerance = 1e-6;  // the phases tried leave 1e-4
   contact::DampingTable table;
   table.scale = dt * std::sqrt(lightest.stiffness);
   table.first = table.scale / std::sqrt(heaviest);
@@ -84,7 +85,7 @@ contact::DampingTable damping_table(const Collision& lightest, double heaviest, 
     const double x = table.first + i * spacing;
     Collision collision = lightest;
     collision.effective_mass = table.scale * table.scale / (x * x);
-    table.value[i] = calibrated_damping(collision, dt) / x;
+    table.value[i] = calibrated_damping(collision, dt, tolerance) / x;
   }
   table.value[last + 1] = table.value[last];
   return table;

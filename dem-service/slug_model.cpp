@@ -115,6 +115,7 @@ void set_particles(const scene::Particle& particle, double depth, SlugModel& mod
     throw InputError(text.str());
   }
   model.particles = static_cast<std::uint64_t>(particles);
+  if (!model.sizes.equal()) model.mass = model.density * model.relative_density * room / particles;
   if (model.particles == 0) throw InputError("impactor.slug.relative_density: so small that no particle is left");
 }
 

@@ -9,7 +9,7 @@ namespace grainstep::contact {
 /// makes r all but constant: (2.3) says sqrt(4/(1 + (pi/ln e)^2))/dt, and a step's length takes some of it away
 /// (docs/theory/particles.md). Plain data: shared with files compiled for other instruction sets.
 struct DampingTable {
-  static constexpr int nodes = 129;
+  static constexpr int nodes = 65;
   double scale = 0.0;            ///< sqrt(kg), dt sqrt(Kn)
   double first = 0.0;            ///< x of the first node
   double per_spacing = 0.0;      ///< one over the spacing of x

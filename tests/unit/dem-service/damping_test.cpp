@@ -72,6 +72,23 @@ TEST(Damping, CalibrationTendsToTheContinuum) {
   }
 }
 
+// Between its nodes as well, for the range of masses that a slug may have.
+TEST(Damping, TheTableReturnsTheInputAtEveryMass) {
+  for (const double e : {0.1, 0.7, 0.95}) {
+    const Collision lightest = reference(e);
+    const double dt = contact_time(lightest) / 10.0;
+    const contact::DampingTable table = damping_table(lightest, 100.0 * lightest.effective_mass, dt);
+    for (int i = 0; i <= 30; ++i) {
+      Collision collision = lightest;
+      collision.effective_mass *= std::pow(100.0, i / 30.0);
+      const double rate = contact::damping_rate(table, collision.effective_mass);
+      EXPECT_NEAR(discrete_restitution(collision, rate, dt), e, 1e-3) << e << " " << i;
+    }
+    const double beyond = contact::damping_rate(table, 1e4 * lightest.effective_mass);
+    EXPECT_NEAR(beyond / continuum_damping({lightest.stiffness, 1e4 * lightest.effective_mass, e, false}), 1.0, 0.02);
+  }
+}
+
 TEST(Damping, TooCoarseAStepIsAnInputError) {
   const Collision collision = reference(0.01);
   EXPECT_THROW((void)calibrated_damping(collision, contact_time(collision)), InputError);

@@ -62,6 +62,21 @@ TEST(Packing, ReachesItsLimitInABigSlug) {
   EXPECT_EQ(pack_at_random(big, equal(count), 1).size(), count);
 }
 
+TEST(Packing, UnequalDiscsDoNotOverlapAndEachHasItsOwnRoomInTheBox) {
+  std::vector<double> diameters;
+  for (int i = 0; i < 1000; ++i) diameters.push_back(i < 30 ? 5.0 : 1.0 - 0.0007 * i);
+  const auto centres = pack_at_random(box, diameters, 1);
+  ASSERT_EQ(centres.size(), diameters.size());
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const double radius = diameters[i] / 2.0;
+    EXPECT_TRUE(centres[i][0] >= radius && centres[i][0] <= 30.0 - radius);
+    EXPECT_TRUE(centres[i][1] >= radius && centres[i][1] <= 60.0 - radius);
+    for (std::size_t j = 0; j < i; ++j) {
+      ASSERT_GE(norm(centres[i] - centres[j]), (radius + diameters[j] / 2.0) * (1.0 - 1e-14)) << i << " " << j;
+    }
+  }
+}
+
 TEST(Packing, WhatDoesNotFitIsAnInputErrorThatNamesWhatWasReached) {
   try {
     (void)pack_at_random(box, equal(count_for(0.6)), 1);
@@ -92,6 +107,15 @@ TEST(Packing, RestsOnTheSurfaceWithoutOverlap) {
       EXPECT_LT(smallest_gap(ground, centres), 1e-8);
     }
   }
+}
+
+TEST(Packing, OfUnequalDiscsTheOneThatReachesLowestRests) {
+  const Polyline flat({{{-50, 3.0}}, {{50, 3.0}}}, {{0, 1}});
+  std::vector<Vec2> centres{{{0.0, 1.0}}, {{5.0, 2.0}}, {{9.0, 0.9}}};
+  contact::rest_on(flat, std::vector<double>{0.5, 2.0, 0.5}, centres);
+  EXPECT_NEAR(centres[1][1], 5.0, 1e-8);
+  EXPECT_GT(centres[1][1], 5.0);
+  EXPECT_NEAR(centres[0][1], 4.0, 1e-8);
 }
 
 }  // namespace
