@@ -9,13 +9,14 @@ namespace grainstep::dem {
 
 struct ImpactorPreview {
   std::uint64_t particles = 0;
-  double particle_mass = 0.0;              ///< kg
-  double contact_mass = 0.0;               ///< kg, likewise; of a slice's sphere as a ring of the full circle feels it
-  double contact_time = 0.0;               ///< s, t_e of a pair (2.4)
-  double stable_step = 0.0;                ///< s
-  double preferred_step = 0.0;             ///< s, what `auto` takes: t_e/10
-  std::uint64_t memory_bytes = 0;          ///< estimate
-  std::uint64_t process_bytes = 0;         ///< the part of it that every rank takes
+  double particle_mass = 0.0;            ///< kg, mean
+  double smallest = 0.0, largest = 0.0;  ///< m, diameters
+  double contact_mass = 0.0;        ///< kg, of the largest; of a slice's sphere as a ring of the full circle feels it
+  double contact_time = 0.0;        ///< s, t_e of a pair of the smallest (2.4)
+  double stable_step = 0.0;         ///< s
+  double preferred_step = 0.0;      ///< s, what `auto` takes: t_e/10
+  std::uint64_t memory_bytes = 0;   ///< estimate
+  std::uint64_t process_bytes = 0;  ///< the part of it that every rank takes
   double seconds_per_particle_step = 0.0;  ///< estimate, one core
 };
 

@@ -47,6 +47,9 @@ void print_sides(const Preparation& p) {
     std::printf("particles                %llu, stable step %.4g s, contact time %.4g s\n",
                 static_cast<unsigned long long>(p.impactor->particles), p.impactor->stable_step,
                 p.impactor->contact_time);
+    if (p.impactor->largest > p.impactor->smallest) {
+      std::printf("diameters                %.4g to %.4g mm\n", 1e3 * p.impactor->smallest, 1e3 * p.impactor->largest);
+    }
   } else {
     std::printf("particles                known to the external impactor\n");
   }

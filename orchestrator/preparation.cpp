@@ -21,6 +21,8 @@ ImpactorPreview without_mass() {
 ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
   const dem::ImpactorPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
   return {.particles = slug.particles,
+          .smallest = slug.smallest,
+          .largest = slug.largest,
           .contact_mass = slug.contact_mass,
           .contact_time = slug.contact_time,
           .stable_step = slug.stable_step,

@@ -18,9 +18,10 @@ namespace grainstep::orchestrator {
 /// What an impactor will be, whatever its kind. Steps in s.
 struct ImpactorPreview {
   std::uint64_t particles = 0;
-  std::uint64_t elements = 0;  ///< of a foam projectile
-  double contact_mass = 0.0;   ///< kg, the heaviest that touches at one point
-  double contact_time = 0.0;   ///< s, between particles
+  std::uint64_t elements = 0;            ///< of a foam projectile
+  double smallest = 0.0, largest = 0.0;  ///< m, diameters of particles
+  double contact_mass = 0.0;             ///< kg, the heaviest that touches at one point
+  double contact_time = 0.0;             ///< s, between two of the smallest particles
   double stable_step = 0.0;
   double preferred_step = 0.0;
   std::uint64_t memory_bytes = 0;

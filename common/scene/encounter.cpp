@@ -6,6 +6,7 @@
 
 #include "scene/groups.hpp"
 #include "scene/number_text.hpp"
+#include "scene/sizes.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -68,22 +69,22 @@ void slice_reaches_the_axis(const Scene& scene, Findings& findings) {
                           rounded_text(largest_hole)});
 }
 
-/// Largest overlap (2.1) of one particle that meets a rigid wall head-on, m: a damped oscillator that starts at
-/// `speed` with mass m on Kn, whose damping ratio returns the restitution.
+/// Largest overlap (2.1) of one of the largest particles that meets a rigid wall head-on, over its diameter: a damped
+/// oscillator that starts at `speed` with mass m on Kn, whose damping ratio returns the restitution.
 double head_on_overlap(const Scene& scene) {
   const Slug& slug = scene.impactor().slug();
   const Particle& particle = slug.particle();
-  const double d = particle.diameter();
-  const bool sphere = scene.symmetry() == SYMMETRY_AXISYMMETRIC;
+  const bool sphere = dimension(scene) == 3;
+  const double d = particle.diameter() * Sizes(slug, dimension(scene)).largest();
   const double volume = std::numbers::pi * d * d * (sphere ? d / 6.0 : scene.depth() / 4.0);
   const double frequency = std::sqrt(particle.normal_stiffness() / (particle.density() * volume));
   const double decay = -std::log(particle.restitution()) / std::numbers::pi;  // zeta/sqrt(1 - zeta^2)
-  return slug.speed() / frequency * std::exp(-decay * std::atan2(1.0, decay));
+  return slug.speed() / frequency * std::exp(-decay * std::atan2(1.0, decay)) / d;
 }
 
 /// What the guard of the run will say, before the run.
 void contact_turns_particles_round(const Scene& scene, Findings& findings) {
-  const double overlap = head_on_overlap(scene) / scene.impactor().slug().particle().diameter();
+  const double overlap = head_on_overlap(scene);
   const double allowed = scene.guards().overlap();
   if (overlap <= allowed) return;
   findings.push_back({Severity::warning, "impactor.slug.particle.normal_stiffness",

@@ -26,21 +26,17 @@ bool is_whole(double value) {
 
 bool divides_evenly(double ratio) { return is_whole(ratio) || is_whole(1 / ratio); }
 
-bool sizes_are_described(const Slug& slug, Findings& findings) {
-  if (!slug.has_size_distribution()) return true;
+void sizes_are_described(const Slug& slug, Findings& findings) {
+  if (!slug.has_size_distribution()) return;
   const std::string path = "impactor.slug.size_distribution";
-  const auto problems = size_problems(slug.size_distribution());
-  for (const SizeProblem& problem : problems) {
+  for (const SizeProblem& problem : size_problems(slug.size_distribution())) {
     findings.push_back({Severity::error, problem.path.empty() ? path : path + "." + problem.path, problem.text});
   }
-  return problems.empty();
 }
 
 void slug_holds_particles(const Scene& scene, Findings& findings) {
   const Slug& slug = scene.impactor().slug();
-  if (!sizes_are_described(slug, findings)) return;
-  const int dimension = scene.symmetry() == SYMMETRY_AXISYMMETRIC ? 3 : 2;
-  const double diameter = Sizes(slug, dimension).largest() * slug.particle().diameter();
+  const double diameter = Sizes(slug, dimension(scene)).largest() * slug.particle().diameter();
   const double smallest = std::min(2 * slug.half_width(), slug.height());
   if (diameter <= smallest) return;
   findings.push_back({Severity::error, "impactor.slug.particle.diameter",
@@ -245,6 +241,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
   const bool slug = has_slug(scene);
   impactor_is_described(scene.impactor(), slug, findings);
   if (scene.impactor().pressure().has_tabulated()) table_is_one(scene.impactor().pressure().tabulated(), findings);
+  if (slug && scene.impactor().has_slug()) sizes_are_described(scene.impactor().slug(), findings);
   if (!findings.empty()) return findings;  // nothing more can be said without it
   const double end = groups(scene).end;
   const bool foam = scene.impactor().type() == Impactor::TYPE_FOAM;

@@ -14,12 +14,14 @@ namespace grainstep::scene {
 /// particle, steps are as short as the smallest one wants them.
 inline constexpr double widest_range_of_sizes = 10.0;
 
+/// Mass goes with this power of a particle's diameter: 3 for spheres, 2 for discs.
+[[nodiscard]] inline int dimension(const Scene& scene) { return scene.symmetry() == SYMMETRY_AXISYMMETRIC ? 3 : 2; }
+
 class Sizes {
  public:
   /// All equal.
   Sizes() = default;
-  /// @pre the distribution keeps size_problems()'s rules. `dimension`: mass goes with this power of the diameter, 2 for
-  /// discs, 3 for spheres.
+  /// @pre the distribution keeps size_problems()'s rules. `dimension`: 2 for discs, 3 for spheres.
   Sizes(const Slug& slug, int dimension);
 
   [[nodiscard]] bool equal() const { return smallest() == largest(); }

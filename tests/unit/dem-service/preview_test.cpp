@@ -40,6 +40,28 @@ void expect_refused(const scene::Impactor& what, const std::string& key) {
   }
 }
 
+TEST(Preview, ManySizes) {
+  scene::Impactor mixed = impactor();
+  scene::SizeDistribution& sizes = *mixed.mutable_slug()->mutable_size_distribution();
+  sizes.set_by(scene::SizeDistribution::BY_MASS);
+  sizes.mutable_bidisperse()->set_ratio(3.0);
+  sizes.mutable_bidisperse()->set_large(0.5);
+  const ImpactorPreview equal = preview_of(impactor());
+  const ImpactorPreview found = preview_of(mixed);
+  EXPECT_NEAR(found.smallest, 0.5e-3, 1e-12);
+  EXPECT_NEAR(found.largest, 1.5e-3, 1e-12);
+  // Half the mass in discs of a quarter of the mean one's, half in discs of 2.25 times that.
+  EXPECT_NEAR(static_cast<double>(found.particles) / static_cast<double>(equal.particles), 2.0 + 1.0 / 4.5, 3e-3);
+  EXPECT_NEAR(found.particle_mass * static_cast<double>(found.particles), 0.2 * 0.02 * 0.04 * 1e-3 * 2700.0, 1e-12);
+  EXPECT_NEAR(found.contact_mass / equal.contact_mass, 2.25, 1e-12);
+  EXPECT_NEAR(found.contact_time / equal.contact_time, 0.5, 1e-12);  // as the root of the mass
+  EXPECT_NEAR(found.preferred_step / equal.preferred_step, 0.5, 1e-12);
+  EXPECT_GT(found.seconds_per_particle_step, equal.seconds_per_particle_step);
+
+  sizes.mutable_uniform()->set_width(0.9);
+  expect_refused(mixed, "size_distribution.uniform.width");
+}
+
 TEST(Preview, RefusesWhatCannotBeComputed) {
   scene::Impactor dense = impactor();
   dense.mutable_slug()->set_relative_density(0.6);
