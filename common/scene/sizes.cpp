@@ -160,12 +160,12 @@ std::vector<SizeProblem> size_problems(const SizeDistribution& sizes) {
   const std::vector<Part> parts = parts_of(sizes);
   const double smallest = parts.front().from;
   const double largest = parts.back().to;
-  if (!(smallest > 0.0)) {
+  if (sizes.has_normal() && !(smallest > 0.0)) {
     return {{width_key(sizes), "with a cut at " + rounded_text(sizes.normal().cut()) +
                                    " deviations the smallest particle has no size left; expected less than " +
                                    rounded_text(1.0 / sizes.normal().cut())}};
   }
-  if (largest > widest_range_of_sizes * smallest) {
+  if (!(largest <= widest_range_of_sizes * smallest)) {
     return {{width_key(sizes), "the largest particles are " + rounded_text(largest / smallest) +
                                    " times as wide as the smallest; expected at most " +
                                    rounded_text(widest_range_of_sizes) + " times: take a narrower distribution"}};
