@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "orchestrator/fidelity.hpp"
+#include "orchestrator/memory.hpp"
 #include "orchestrator/preparation.hpp"
 #include "orchestrator/progress.hpp"
 
@@ -140,6 +141,7 @@ void check(const CheckOptions& options) {
     print_plan(*p.plan);
   }
   print_cost(p, options.ranks);
+  require_memory(p, options.ranks, memory_of_machine());
   print_fidelity(p.scene);
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "orchestrator/conduct.hpp"
 #include "orchestrator/interrupted.hpp"
+#include "orchestrator/memory.hpp"
 #include "orchestrator/participants.hpp"
 #include "orchestrator/preparation.hpp"
 #include "process/interrupt.hpp"
@@ -70,6 +71,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
 int run(const RunOptions& options) {
   const Preparation preparation = prepare(options);
   print_warnings(preparation);
+  require_memory(preparation, options.ranks, memory_of_machine());
   const results::RunDirectory directory = directory_of(options);
   directory.prepare(options.force ? results::Existing::replace : results::Existing::refuse);
   announce(options, preparation, directory);

@@ -1,6 +1,7 @@
 #include "participant/serve.hpp"
 
 #include <iostream>
+#include <new>
 
 #include "base/error.hpp"
 #include "participant/conversation.hpp"
@@ -141,6 +142,10 @@ int serve(transport::Channel& channel, Backend& backend, const ServeOptions& opt
     return bad(wire::Error::NUMERICAL, ExitCode::numerical, error);
   } catch (const PeerError& error) {
     return bad(wire::Error::PROTOCOL, ExitCode::peer, error);
+  } catch (const std::bad_alloc&) {
+    return end_badly(talk, options,
+                     {wire::Error::INTERNAL, ExitCode::peer,
+                      "the system gives no more memory; grainstep check estimates what a scene takes"});
   } catch (const std::exception& error) {
     return bad(wire::Error::INTERNAL, ExitCode::peer, error);
   }

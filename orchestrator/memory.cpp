@@ -1,0 +1,72 @@
+#include "orchestrator/memory.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+/// Of an element in a snapshot: half a node with three vectors, three indices, four fields; as a message and its bytes,
+/// at the participant and at the orchestrator.
+constexpr std::uint64_t snapshot_bytes = 4ULL * (24 + 12 + 32);
+
+std::string gibibytes(std::uint64_t bytes) {
+  char out[32];
+  std::snprintf(out, sizeof out, "%.3g GiB", static_cast<double>(bytes) / (1U << 30U));
+  return out;
+}
+
+/// Limit of the control group that a container is, bytes. A group without one says "max", or a number beyond all
+/// memory.
+std::optional<std::uint64_t> limit_of_group() {
+  for (const char* path : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    std::ifstream file(path);
+    std::uint64_t limit = 0;
+    if (file >> limit) return limit;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::uint64_t memory_of(const Preparation& p, int ranks) {
+  std::uint64_t bytes = 0;
+  if (p.impactor) bytes += p.impactor->memory_bytes + static_cast<std::uint64_t>(ranks - 1) * p.impactor->process_bytes;
+  if (p.structure) bytes += p.structure->memory_bytes;
+  if (p.scene.output().snapshots() == 0) return bytes;
+  if (p.impactor) bytes += snapshot_bytes * p.impactor->elements;
+  if (p.structure) bytes += snapshot_bytes * p.structure->elements;
+  return bytes;
+}
+
+std::optional<std::uint64_t> memory_of_machine() {
+  const long pages = sysconf(_SC_PHYS_PAGES);
+  const long page = sysconf(_SC_PAGE_SIZE);
+  if (pages <= 0 || page <= 0) return limit_of_group();
+  const std::uint64_t all = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
+  return std::min(all, limit_of_group().value_or(all));
+}
+
+void require_memory(const Preparation& p, int ranks, std::optional<std::uint64_t> machine) {
+  const std::uint64_t needed = memory_of(p, ranks);
+  if (!machine || needed <= *machine) return;
+  const std::uint64_t impactor = p.impactor ? p.impactor->memory_bytes : 0;
+  const bool structure = p.structure && p.structure->memory_bytes > impactor;
+  const bool foam = p.impactor && p.impactor->elements > 0;
+  const std::string of_impactor = foam ? "impactor.foam.elements" : "impactor.slug.particle.diameter";
+  const std::string key = structure ? "structure.mesh.refinement" : of_impactor;
+  const char* change = structure || foam ? "lower" : "raise";
+  const std::string text = key + ": the run would take about " + gibibytes(needed) +
+                           " of memory, snapshots included, but this machine has " + gibibytes(*machine) + "; " + change +
+                           " it, or run on a larger machine";
+  if (ranks == 1) throw InputError(text);
+  std::fprintf(stderr, "grainstep: warning: %s\n", text.c_str());
+}
+
+}  // namespace grainstep::orchestrator

@@ -1,0 +1,59 @@
+// What does not fit is refused before anything is started.
+#include "orchestrator/memory.hpp"
+
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr std::uint64_t gibibyte = 1ULL << 30U;
+
+Preparation of(ImpactorPreview impactor, std::uint64_t structure) {
+  Preparation out;
+  out.impactor = impactor;
+  out.structure = fe::StructurePreview{};
+  out.structure->memory_bytes = structure;
+  return out;
+}
+
+std::string refusal(const Preparation& preparation, std::uint64_t machine) {
+  try {
+    require_memory(preparation, 1, machine);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Memory, BothSidesAndAllRanksCount) {
+  const Preparation p = of({.memory_bytes = 5 * gibibyte, .process_bytes = gibibyte}, 2 * gibibyte);
+  EXPECT_EQ(memory_of(p, 1), 7 * gibibyte);
+  EXPECT_EQ(memory_of(p, 4), 10 * gibibyte);
+  EXPECT_EQ(memory_of({}, 1), 0U);  // both external
+  Preparation foam = of({.elements = 10'000'000, .memory_bytes = gibibyte}, 0);
+  EXPECT_EQ(memory_of(foam, 1), gibibyte);
+  foam.scene.mutable_output()->set_snapshots(5);
+  EXPECT_GT(memory_of(foam, 1), 3 * gibibyte);
+}
+
+TEST(Memory, WhatDoesNotFitIsRefusedByTheLargerSide) {
+  const Preparation sand = of({.particles = 10, .memory_bytes = 5 * gibibyte}, 2 * gibibyte);
+  EXPECT_EQ(refusal(sand, 7 * gibibyte), "");
+  EXPECT_THAT(refusal(sand, 6 * gibibyte),
+              AllOf(HasSubstr("particle.diameter"), HasSubstr("7 GiB"), HasSubstr("6 GiB"), HasSubstr("raise")));
+  const Preparation foam = of({.elements = 10, .memory_bytes = 5 * gibibyte}, 2 * gibibyte);
+  EXPECT_THAT(refusal(foam, gibibyte), AllOf(HasSubstr("impactor.foam.elements"), HasSubstr("lower")));
+  EXPECT_THAT(refusal(of({}, 2 * gibibyte), gibibyte), HasSubstr("structure.mesh.refinement"));
+  EXPECT_NO_THROW(require_memory(sand, 1, std::nullopt));
+  EXPECT_NO_THROW(require_memory(sand, 2, gibibyte));
+}
+
+TEST(Memory, TheMachineHasSome) { EXPECT_GT(memory_of_machine().value_or(0), gibibyte / 4); }
+
+}  // namespace
+}  // namespace grainstep::orchestrator
