@@ -133,11 +133,11 @@ std::string run_table(const Report& report) {
   return out;
 }
 
-/// The commit of the build that made a run; empty where the file does not say.
+/// The commit of the build that made a run, with a "+" where its tree was not committed; empty where the file does not say.
 std::string commit_of(const Outcome& outcome) {
   try {
     const auto file = results::h5::File::read(results::RunDirectory(outcome.directory).results());
-    return file.has("/build/commit") ? file.read_text("/build/commit").substr(0, 12) : "";
+    return file.has("/build/commit") ? file.read_text("/build/commit") : "";
   } catch (const OutputError&) {  // moved or removed since; its summary was read
     return "";
   }
