@@ -154,7 +154,8 @@ void Recorder::judge(std::uint64_t window, const Pending& row, const ledger::Bal
   const auto found = ledger::violation(
       scene_.guards(), {.balance = balance,
                         .overlap = ledger::find(*row.impactor, ledger::observable::overlap),
-                        .element_quality = ledger::find(*row.structure, ledger::observable::element_quality)});
+                        .element_quality = ledger::find(*row.structure, ledger::observable::element_quality),
+                        .foam = scene_.impactor().type() == scene::Impactor::TYPE_FOAM});
   if (found) {
     throw NumericalError("at window " + std::to_string(window) + " of " + std::to_string(plan_.windows) + " (t_bar " +
                          std::to_string(time_of(window) / groups_.reference_time) + "): " + *found);

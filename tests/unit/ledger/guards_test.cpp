@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 scene::Guards guards() {
   scene::Guards out;
@@ -78,6 +79,18 @@ TEST(MessageNumbers, FindTheElementOfAList) {
   forces.add_impulse(0.0);
   forces.add_impulse(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(first_not_finite(forces).value(), "impulse[1] = nan");
+}
+
+// What one would change of a foam is not what one would change of particles.
+TEST(Guards, AdviseByTheImpactor) {
+  auto state = good();
+  state.foam = true;
+  state.overlap = 0.75;
+  EXPECT_THAT(
+      violation(guards(), state).value(),
+      AllOf(HasSubstr("guards.overlap"), HasSubstr("impactor.foam.contact_stiffness"), Not(HasSubstr("article"))));
+  state.balance.energy_drift = 0.0625;
+  EXPECT_THAT(violation(guards(), state).value(), AllOf(HasSubstr("guards.energy_drift"), HasSubstr("shock_width")));
 }
 
 }  // namespace
