@@ -40,6 +40,17 @@ std::size_t state_index(int components, int column, int triangle) {
 
 }  // namespace
 
+std::size_t memory_bytes(const Mesh& mesh, const std::vector<Material>& layers) {
+  constexpr std::size_t arrays = 10;  // of Nodes
+  std::size_t doubles =
+      arrays * (mesh.corner_stride() * (mesh.rows.size() + 1) + mesh.centre_stride() * mesh.rows.size());
+  doubles += scratch_size(mesh.columns);
+  for (const ElementRow& row : mesh.rows) {
+    doubles += mesh.batches() * static_cast<std::size_t>(state_components(layers[row.layer]) * kBatchTriangles);
+  }
+  return doubles * sizeof(double);
+}
+
 Body::Body(Mesh mesh, std::vector<Material> layers, const Measure& measure, const Kernels& kernels)
     : mesh_(std::move(mesh)), layers_(std::move(layers)), measure_(measure), kernels_(&kernels) {
   resize(corners, mesh_.corner_stride() * (mesh_.rows.size() + 1));
@@ -143,6 +154,7 @@ SweepResult Body::sweep(double step) {
       kernels_->sweep_elastic(view, std::get<Elastic>(material(row)), measure_);
     }
     result.plastic_work += view.plastic_work;
+    result.stored += view.stored;
     result.unconverged += view.unconverged;
     const double quality = view.min_twice_area / (0.5 * mesh_.rows[row].quad_area);
     if (!(quality >= result.min_quality)) result.min_quality = quality;
@@ -217,12 +229,6 @@ double Body::mass() const {
     for (const double m : nodes->mass) sum += m;
   }
   return sum;
-}
-
-std::size_t Body::memory_bytes() const {
-  std::size_t doubles = 10 * (corners.x.size() + centres.x.size()) + scratch_.size();
-  for (const Array& state : state_) doubles += state.size();
-  return doubles * sizeof(double);
 }
 
 double Body::state(int component, int row, int column, int triangle) const {

@@ -22,9 +22,13 @@ struct Nodes {
 
 struct SweepResult {
   double plastic_work = 0.0;  ///< J
+  double stored = 0.0;        ///< J, by which stored energy grew; of foam only
   double min_quality = 0.0;   ///< smallest element area over its undeformed area
   int unconverged = 0;        ///< batches in which the material's iteration did not converge
 };
+
+/// What a body of that mesh takes, without building it.
+[[nodiscard]] std::size_t memory_bytes(const Mesh& mesh, const std::vector<Material>& layers);
 
 class Body {
  public:
@@ -58,7 +62,7 @@ class Body {
   [[nodiscard]] const Measure& measure() const { return measure_; }
   [[nodiscard]] const Material& material(int row) const { return layers_[mesh_.rows[row].layer]; }
   [[nodiscard]] double mass() const;
-  [[nodiscard]] std::size_t memory_bytes() const;
+  [[nodiscard]] std::size_t memory_bytes() const { return fe::memory_bytes(mesh_, layers_); }
 
   /// State component of a triangle (layout.hpp).
   [[nodiscard]] double state(int component, int row, int column, int triangle) const;

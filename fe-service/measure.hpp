@@ -39,7 +39,8 @@ struct Axisymmetric {
   static constexpr bool kHoops = true;
 
   /// The volumes of four rings are independent: a volume each for two displacements per corner and two per centre, and
-  /// pressures that run away from one another. One volume per quad leaves flow free (docs/decisions).
+  /// pressures that run away from one another. One volume per quad leaves flow free (docs/decisions). A foam's flow
+  /// keeps no volume: its triangles keep their own (kernel/sweep.hpp).
   static constexpr bool kSharesDilatation = true;
 
   [[nodiscard]] GS_ALWAYS_INLINE double thickness(double r) const { return 2.0 * std::numbers::pi * r; }

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "fe-service/body.hpp"
 #include "fe-service/deformable.hpp"
-#include "fe-service/foam/model.hpp"
+#include "fe-service/foam/block.hpp"
 #include "fe-service/layers.hpp"
 #include "fe-service/solid.hpp"
 #include "participant/schedule.hpp"
@@ -48,12 +48,11 @@ void preview_plate(const Mesh& mesh, const std::vector<Material>& layers, Struct
   const Body body(one_row_per_layer(mesh), layers, Axisymmetric{});
   found.stable_step = body.stable_step();
   found.contact_mass = body.corners.mass[body.mesh().corner(mesh.middle_of_face())];
-  found.memory_bytes = body.memory_bytes() / body.mesh().rows.size() * mesh.rows.size();
 }
 
 void preview_beam(const Mesh& mesh, const std::vector<Material>& layers, const Measure& measure,
                   StructurePreview& found) {
-  // All columns are alike: one is enough for the step, and tells what each adds to the memory.
+  // All columns are alike: one is enough for the step.
   Mesh column = mesh;
   column.columns = 1;
   column.length = mesh.width;
@@ -61,7 +60,6 @@ void preview_beam(const Mesh& mesh, const std::vector<Material>& layers, const M
   found.stable_step = body.stable_step();
   // The only column's two surface nodes have one triangle's neighbourhood each; inside the surface nodes have both.
   for (const Corner c : body.mesh().surface()) found.contact_mass += body.corners.mass[body.mesh().corner(c)];
-  found.memory_bytes = body.memory_bytes() * mesh.batches();
 }
 
 void preview_deformable(const scene::Structure& structure, const Measure& measure, StructurePreview& found) {
@@ -70,6 +68,7 @@ void preview_deformable(const scene::Structure& structure, const Measure& measur
   found.elements = mesh.triangles();
   found.nodes = mesh.nodes();
   found.element_size = mesh.width;
+  found.memory_bytes = memory_bytes(mesh, layers);
   if (is_of_revolution(measure)) {
     preview_plate(mesh, layers, found);
   } else {
@@ -97,23 +96,15 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
   return found;
 }
 
-FoamPreview preview_foam(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
-  if (symmetry != scene::SYMMETRY_PLANE_STRAIN)
-    throw InputError("symmetry: a foam projectile is computed in `plane_strain` only; take impactor.type: slug");
-  const FoamModel model = make_foam_model(impactor, depth, mirror);
-  // All quads are alike: one is enough for the step.
-  Mesh quad = model.mesh;
-  quad.columns = 1;
-  quad.length = quad.width;
-  quad.rows.resize(1);
-  quad.level.resize(2);
-  const Body body(quad, {model.foam}, PlaneStrain{depth});
+FoamPreview preview_foam(const scene::Impactor& impactor, const FoamSetting& setting) {
+  const FoamModel model = make_foam_model(impactor, setting);
+  const Body body(one_row_per_layer(model.mesh), {model.foam}, model.measure);
   FoamPreview found;
   found.elements = model.mesh.triangles();
-  found.stable_step = stable_step_in_touch(model, body.stable_step());
-  found.preferred_step = preferred_foam_step(impactor, found.stable_step);
-  found.contact_mass = 2.0 * body.corners.mass[0];
-  found.memory_bytes = body.memory_bytes() * model.mesh.batches() * model.mesh.rows.size();
+  found.stable_step = stable_step_in_touch(model, body, body.stable_step());
+  found.preferred_step = preferred_foam_step(model, found.stable_step);
+  found.contact_mass = heaviest_of_face(body);
+  found.memory_bytes = memory_bytes(model.mesh, {model.foam});
   found.seconds_per_element_step = kFoamSeconds;
   return found;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "fe-service/foam/model.hpp"
 #include "grainstep/scene.pb.h"
 
 namespace grainstep::fe {
@@ -30,9 +31,8 @@ struct FoamPreview {
   double seconds_per_element_step = 0.0;
 };
 
-/// Throws InputError for a foam projectile that grainstep-fe cannot compute. `mirror`: half of it.
-[[nodiscard]] FoamPreview preview_foam(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
-                                       bool mirror);
+/// Throws InputError for a foam projectile that grainstep-fe cannot compute.
+[[nodiscard]] FoamPreview preview_foam(const scene::Impactor& impactor, const FoamSetting& setting);
 
 /// Throws InputError for a structure that grainstep-fe cannot compute.
 [[nodiscard]] StructurePreview preview(const scene::Structure& structure, scene::Symmetry symmetry, double depth);

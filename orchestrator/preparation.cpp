@@ -33,7 +33,7 @@ ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
 }
 
 ImpactorPreview of_foam(const scene::Scene& scene, bool mirror) {
-  const fe::FoamPreview foam = fe::preview_foam(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
+  const fe::FoamPreview foam = fe::preview_foam(scene.impactor(), {scene.symmetry(), scene.depth(), mirror});
   return {.elements = foam.elements,
           .contact_mass = foam.contact_mass,
           .stable_step = foam.stable_step,

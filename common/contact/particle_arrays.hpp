@@ -17,6 +17,7 @@ struct ParticleArrays {
   double* const* torque = nullptr;          ///< N m
   const double* radius = nullptr;           ///< m
   const double* mass = nullptr;             ///< kg
+  const double* share = nullptr;            ///< by which the law's stiffnesses are multiplied; null: 1 for all
   const std::int32_t* identity = nullptr;
   surface::Vec3* spring = nullptr;  ///< m, tangential spring of the contact with the surface; zero without contact
 };

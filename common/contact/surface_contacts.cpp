@@ -24,6 +24,14 @@ std::string tunnelled(const SurfaceContactSettings& settings, const ParticleArra
   return text.str();
 }
 
+ContactLaw law_of(const ContactLaw& law, const ParticleArrays& particles, int i) {
+  if (particles.share == nullptr) return law;
+  ContactLaw own = law;
+  own.normal_stiffness *= particles.share[i];
+  own.tangential_stiffness *= particles.share[i];
+  return own;
+}
+
 void add_ring(const Meridian& plane, const Vec3& force, const Vec3& velocity, ParticleSide& side) {
   const double across = plane.across(force);
   side.radial += plane.in_plane(force)[0];
@@ -77,7 +85,7 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
 
 void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface& surface, int i,
                             const ClosestPoint& at, double dt) {
-  const ContactLaw& law = settings_.law;
+  const ContactLaw law = law_of(settings_.law, particles, i);
   const double radius = particles.radius[i];
   const double overlap = radius - at.distance;
   const Meridian plane = meridian_of(settings_.shape, particles.position[i]);

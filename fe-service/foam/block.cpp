@@ -1,5 +1,6 @@
 #include "fe-service/foam/block.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -45,7 +46,7 @@ double height_of_first_touch(const FoamModel& model, const Body& body, const sur
 }  // namespace
 
 Body make_block(const FoamModel& model, const surface::Polyline& surface) {
-  Body body(model.mesh, {model.foam}, PlaneStrain{model.depth});
+  Body body(model.mesh, {model.foam}, model.measure);
   const double rise = height_of_first_touch(model, body, surface) + model.stand_off;
   for (Nodes* nodes : {&body.corners, &body.centres}) set_motion(model, rise, *nodes);
   return body;
@@ -61,6 +62,42 @@ std::vector<std::size_t> outline(const Mesh& mesh) {
   }
   for (int column = 0; column <= mesh.columns; ++column) nodes.push_back(mesh.corner({0, column}));
   return nodes;
+}
+
+std::vector<double> outline_areas(const Mesh& mesh, const Measure& measure) {
+  std::vector<double> all(mesh.corner_stride() * (mesh.rows.size() + 1), 0.0);
+  const auto add = [&](Corner a, Corner b, double length) {
+    const auto share = [&](Corner here, Corner other) {
+      const double resultant = (2.0 * mesh.corner_x(here.column) + mesh.corner_x(other.column)) / 3.0;
+      all[mesh.corner(here)] += 0.5 * length * thickness(measure, resultant);
+    };
+    share(a, b);
+    share(b, a);
+  };
+  for (const int row : {0, mesh.row_count()}) {
+    for (int column = 0; column < mesh.columns; ++column) add({row, column}, {row, column + 1}, mesh.width);
+  }
+  for (int row = 0; row < mesh.row_count(); ++row) {
+    if (!mesh.symmetric) add({row, 0}, {row + 1, 0}, mesh.rows[row].height);
+    add({row, mesh.columns}, {row + 1, mesh.columns}, mesh.rows[row].height);
+  }
+  std::vector<double> areas;
+  for (const std::size_t i : outline(mesh)) areas.push_back(all[i]);
+  return areas;
+}
+
+double heaviest_of_face(const Body& body) {
+  const auto face =
+      body.corners.mass.begin() + static_cast<std::ptrdiff_t>(body.mesh().corner({body.mesh().row_count(), 0}));
+  return *std::max_element(face, face + body.mesh().columns + 1);
+}
+
+double stable_step_in_touch(const FoamModel& model, const Body& body, double elements) {
+  const std::vector<std::size_t> nodes = outline(body.mesh());
+  const std::vector<double> areas = outline_areas(body.mesh(), body.measure());
+  double most = 0.0;  // m^2/kg
+  for (std::size_t k = 0; k < nodes.size(); ++k) most = std::max(most, areas[k] * body.corners.inverse_mass[nodes[k]]);
+  return 2.0 / std::sqrt(4.0 / (elements * elements) + model.contact_stiffness * most);
 }
 
 Vec2 hold_block(const FoamModel& model, Body& body) {

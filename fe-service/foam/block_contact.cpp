@@ -54,6 +54,7 @@ BlockContact::BlockContact(const FoamModel& model, const Body& body)
       force_rows_(rows_of(force_)),
       torque_rows_(rows_of(torque_)),
       radius_(nodes_.size(), model.radius),
+      area_(outline_areas(body.mesh(), body.measure())),
       reach_(model.radius),
       contacts_(settings_of(model)) {
   for (const std::size_t i : nodes_) {
@@ -72,6 +73,7 @@ contact::ParticleArrays BlockContact::arrays() {
   out.torque = torque_rows_.data();
   out.radius = radius_.data();
   out.mass = mass_.data();
+  out.share = area_.data();
   out.identity = identity_.data();
   out.spring = spring_.data();
   return out;

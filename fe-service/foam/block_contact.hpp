@@ -1,5 +1,7 @@
 /// @file The nodes of a block on the moving surface: what the particles of a slug do there
-/// (contact/surface_contacts.hpp), done by discs of the nodes' mass that do not turn.
+/// (contact/surface_contacts.hpp), done by discs of the nodes' mass that do not turn. Nodes of a
+/// solid of revolution are rings and meet the rings of the surface, in the half plane of both; sums are those of the
+/// full circle. A contact is as stiff as what of the outline is the node's.
 ///
 /// Order of calls per step: begin_interval(), evaluate(), push(), end_interval().
 #pragma once
@@ -42,6 +44,7 @@ class BlockContact {
   std::vector<surface::Vec3> position_, velocity_, force_, torque_, spring_, remembered_;
   std::vector<double*> position_rows_, velocity_rows_, spin_rows_, force_rows_, torque_rows_;
   std::vector<double> radius_, mass_;
+  std::vector<double> area_;  ///< m^2, of the undeformed outline
   std::vector<std::int32_t> identity_;
   surface::Vec3 no_spin_{};
   double reach_;  ///< m, largest radius and margin

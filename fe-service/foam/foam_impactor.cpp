@@ -18,18 +18,16 @@ wire::Hello FoamImpactor::describe() const {
   hello.set_backend(std::string("grainstep-fe (foam projectile, ") + available_kernels().front()->name + ")");
   hello.set_version(GRAINSTEP_VERSION);
   hello.set_dimension(2);
-  for (const char* capability : {"foam", "plane_strain"}) hello.add_capabilities(capability);
+  for (const char* capability : {"foam", "plane_strain", "axisymmetric"}) hello.add_capabilities(capability);
   hello.set_process(static_cast<std::uint64_t>(getpid()));
   return hello;
 }
 
 wire::Ready FoamImpactor::prepare(const wire::Setup& setup) {
   if (!setup.has_impactor()) throw InputError("setup: started as an impactor, but was sent a structure's part");
-  if (setup.symmetry() != scene::SYMMETRY_PLANE_STRAIN)
-    throw InputError("symmetry: a foam projectile is computed in `plane_strain` only; take impactor.type: slug");
   const scene::Impactor& impactor = setup.impactor().impactor();
   guards_ = setup.impactor().guards();
-  model_ = make_foam_model(impactor, setup.depth(), setup.mirror());
+  model_ = make_foam_model(impactor, {setup.symmetry(), setup.depth(), setup.mirror()});
   surface_.emplace(setup.impactor().surface());
   body_.emplace(make_block(*model_, surface_->now()));
   contact_.emplace(*model_, *body_);
@@ -37,11 +35,11 @@ wire::Ready FoamImpactor::prepare(const wire::Setup& setup) {
   stable_step_ = undeformed_step_ = body_->stable_step();
   wire::Ready ready;
   ready.set_scene_hash(setup.scene_hash());
-  ready.set_stable_step(stable_step_in_touch(*model_, stable_step_));
-  ready.set_preferred_step(preferred_foam_step(impactor, ready.stable_step()));
+  ready.set_stable_step(stable_step_in_touch(*model_, *body_, stable_step_));
+  ready.set_preferred_step(preferred_foam_step(*model_, ready.stable_step()));
   ready.set_size(body_->mesh().triangles());
   ready.set_mass(body_->mass());
-  ready.set_contact_mass(body_->corners.mass[body_->mesh().corner({body_->mesh().row_count(), 1})]);
+  ready.set_contact_mass(heaviest_of_face(*body_));
   ready.set_memory(body_->memory_bytes());
   return ready;
 }
@@ -88,6 +86,7 @@ void FoamImpactor::internal_forces() {
   const SweepResult result = body_->sweep(step_before_);
   ++steps_;
   plastic_work_ += result.plastic_work;
+  stored_ += result.stored;
   min_quality_ = result.min_quality;
   if (result.unconverged > 0) material_failed(*body_, progress());
   if (!(min_quality_ >= guards_.element_quality())) check_quality(*body_, guards_.element_quality(), progress());
@@ -99,7 +98,7 @@ void FoamImpactor::check_block() {
   stable_step_ = body_->stable_step();
   if (!(stable_step_ >= guards_.element_quality() * undeformed_step_))
     check_slivers(*body_, undeformed_step_, guards_.element_quality(), progress());
-  const double limit = kStepLimit * stable_step_in_touch(*model_, stable_step_);
+  const double limit = kStepLimit * stable_step_in_touch(*model_, *body_, stable_step_);
   steps_needed_ = std::max(steps_needed_, static_cast<std::uint32_t>(std::ceil(window_length_ / limit)));
   last_good_time_ = progress().time;
 }
@@ -115,7 +114,8 @@ void FoamImpactor::move(participant::ImpactorLink& link) {
   const double part = step_before_ / (step_before_ + next);
   body_->kick(weight);
   contact_->push(*body_, weight);
-  const Vec2 held = hold_block(*model_, *body_);
+  Vec2 held = hold_block(*model_, *body_);
+  if (is_of_revolution(body_->measure())) held.x += weight * body_->radial_force();
   contact_->end_interval(*body_, *surface_, step_before_, part);
   if (wanted) {
     const Velocities at = Velocities::blend(before, Velocities::of(*body_), part);
@@ -159,7 +159,7 @@ void FoamImpactor::report(const Velocities& before, const Velocities& at, Vec2 s
   report.set_window(window_);
   wire::Energy& energy = *report.mutable_energy();
   energy.set_kinetic(conserved_kinetic_energy(*body_, before, at));
-  energy.set_elastic(elastic_energy(*body_) + contacts.stored_normal() + contacts.stored_tangential());
+  energy.set_elastic(stored_ + contacts.stored_normal() + contacts.stored_tangential());
   energy.set_plastic(plastic_work_);
   energy.set_damping(ledger.damping);
   energy.set_friction(ledger.tangential - contacts.stored_tangential());

@@ -54,6 +54,7 @@ class FoamImpactor final : public participant::ImpactorBackend {
   std::uint64_t steps_ = 0;
   double last_good_time_ = 0.0;
   double plastic_work_ = 0.0;
+  double stored_ = 0.0;  ///< J, work of the elastic strains
   double min_quality_ = 1.0;
   Vec2 supports_{0.0, 0.0};  ///< N s, of all steps
   std::vector<surface::Vec2> nodal_;

@@ -66,8 +66,7 @@ GS_ALWAYS_INLINE bool solve_foam(const Foam& law, double drag, FoamReturn& local
   return false;
 }
 
-/// Returns the plastic work, J: of the plastic strains, and the stored energy of the volume that plastic compaction
-/// takes away (the energy that is stored is counted by the present volume).
+/// Returns the work of the plastic strains, J.
 GS_ALWAYS_INLINE double foam_lane(const Foam& law, const FoamReturn& local, const CoreFlow& flow, double* state,
                                   int i) {
   const bool flows = local.overshoot[i] > 0.0;
@@ -82,14 +81,31 @@ GS_ALWAYS_INLINE double foam_lane(const Foam& law, const FoamReturn& local, cons
   // The last step of the plateau ends on it, whatever the round-off.
   const double locks = increment > (1.0 - 1e-9) * local.room[i] ? law.locked : reached;
   state[kPlasticStrain * kBatchTriangles + i] = flows ? locks : strain;
-  const double released =
-      0.5 * (law.elastic.stored_energy(before) + law.elastic.stored_energy(now)) * 3.0 * x * mean(now);
-  return flow.volume[i] * (0.5 * x * (contract(before, now) + square) - released);
+  return flow.volume[i] * (0.5 * x * (contract(before, now) + square));
 }
 
-/// As for DH36; `drag` = eta/dt.
-GS_ALWAYS_INLINE void correct(const Foam& law, double* state, const CoreFlow& flow, double drag, int lanes,
-                              double* work, RowSweep& row) {
+/// Work of the elastic strains, J: (old + new stress)/2 : elastic strain increment x volume at the middle of the step,
+/// which is what the stored energy per volume grows by, times that volume. Together with the plastic work it is the
+/// trapezoidal internal work. Stored energy by the present volume would miss what is in the volume that goes, the third
+/// order of the strain.
+GS_ALWAYS_INLINE double stored_lane(const Foam& law, const double* state, const CoreFlow& flow, int i) {
+  const Stress before = {flow.old_xx[i], flow.old_yy[i], flow.old_xy[i], flow.old_zz[i]};
+  return flow.volume[i] * (law.elastic.stored_energy(stress_of(state, i)) - law.elastic.stored_energy(before));
+}
+
+/// Adds what the first `lanes` quads store in this step.
+GS_ALWAYS_INLINE void add_stored(const Foam& law, const double* state, const CoreFlow& flow, int lanes, RowSweep& row) {
+  alignas(kAlignment) double change[kBatchTriangles];
+#pragma omp simd
+  for (int i = 0; i < kBatchTriangles; ++i) change[i] = stored_lane(law, state, flow, i);
+  for (int t = 0; t < kQuadTriangles; ++t) {
+    for (int l = 0; l < lanes; ++l) row.stored += change[t * kBatchQuads + l];
+  }
+}
+
+/// As for DH36, `drag` = eta/dt.
+GS_ALWAYS_INLINE void flow_batch(const Foam& law, double* state, const CoreFlow& flow, double drag, int lanes,
+                                 double* work, RowSweep& row) {
   alignas(kAlignment) FoamReturn local;
   double overshoot = 0.0;
 #pragma omp simd reduction(max : overshoot)
@@ -106,6 +122,12 @@ GS_ALWAYS_INLINE void correct(const Foam& law, double* state, const CoreFlow& fl
   for (int t = 0; t < kQuadTriangles; ++t) {
     for (int l = 0; l < lanes; ++l) work[l] += done[t * kBatchQuads + l];
   }
+}
+
+GS_ALWAYS_INLINE void correct(const Foam& law, double* state, const CoreFlow& flow, double drag, int lanes,
+                              double* work, RowSweep& row) {
+  flow_batch(law, state, flow, drag, lanes, work, row);
+  add_stored(law, state, flow, lanes, row);
 }
 
 }  // namespace

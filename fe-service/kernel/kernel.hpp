@@ -37,6 +37,7 @@ struct RowSweep {
   double step = 0.0;  ///< s
   // results
   double plastic_work = 0.0;    ///< J, of this step
+  double stored = 0.0;          ///< J, by which this step raised the stored energy; of foam only
   double min_twice_area = 0.0;  ///< m^2, at the end of the step
   int yielding = 0;             ///< batches with plastic flow
   int unconverged = 0;          ///< batches whose local iteration did not converge

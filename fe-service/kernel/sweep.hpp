@@ -34,6 +34,13 @@ struct Correction<Foam> {
   static constexpr int kState = kFoamState;
 };
 
+/// Whether the four triangles of a quad share their dilatation (measure.hpp). A foam's flow keeps no volume, so that
+/// nothing can lock.
+template <class Measure, class Law>
+inline constexpr bool kShares = Measure::kSharesDilatation;
+template <class Measure>
+inline constexpr bool kShares<Measure, Foam> = false;
+
 /// What a material wants to know of the step's length.
 inline double step_parameter(const Elastic&, double) { return 0.0; }
 inline double step_parameter(const Dh36& law, double step) { return std::log(step * law.reference_rate); }
@@ -81,34 +88,34 @@ GS_ALWAYS_INLINE void dilate_lane(const Batch& batch, const Measure& measure, do
 }
 
 /// Rotates the old stress of triangle T and adds the elastic increment. Leaves the predictor in `state`.
-template <int T, class Measure, class Memory>
-GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Elastic& law, const Measure& measure, double step,
+template <int T, class Law, class Measure, class Memory>
+GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Law& law, const Measure& measure, double step,
                                    const double* dilatation, double* state, Memory& flow, int l) {
   const int i = T * kBatchQuads + l;
   Increments now = increments<T>(batch, measure, step, l);
-  if constexpr (Measure::kSharesDilatation) {
+  if constexpr (kShares<Measure, Law>) {
     const double missing = (dilatation[l] - now.dilatation()) * (1.0 / 3.0);
     now.strain = {now.strain.xx + missing, now.strain.yy + missing, now.strain.gamma, now.strain.zz + missing};
   }
   const Stress old = rotate(stress_of(state, i), now.half_tangent);
-  const Stress change = rotate_from_middle(law.increment(now.strain), now.half_tangent);
+  const Stress change = rotate_from_middle(elasticity(law).increment(now.strain), now.half_tangent);
   const Stress trial = {old.xx + change.xx, old.yy + change.yy, old.xy + change.xy, old.zz + change.zz};
   set_stress(state, i, trial);
   remember(flow, i, now.volume, old, trial, now.half_tangent);
 }
 
-template <int T, class Measure, class Memory>
-GS_ALWAYS_INLINE void predict_triangle(const Batch& batch, const Elastic& law, const Measure& measure, double step,
+template <int T, class Law, class Measure, class Memory>
+GS_ALWAYS_INLINE void predict_triangle(const Batch& batch, const Law& law, const Measure& measure, double step,
                                        const double* dilatation, double* state, Memory& flow) {
 #pragma omp simd
   for (int l = 0; l < kBatchQuads; ++l) predict_lane<T>(batch, law, measure, step, dilatation, state, flow, l);
 }
 
-template <class Measure, class Memory>
-GS_ALWAYS_INLINE void predict(const Batch& batch, const Elastic& law, const Measure& measure, double step,
-                              double* state, Memory& flow) {
+template <class Law, class Measure, class Memory>
+GS_ALWAYS_INLINE void predict(const Batch& batch, const Law& law, const Measure& measure, double step, double* state,
+                              Memory& flow) {
   double dilatation[kBatchQuads];
-  if constexpr (Measure::kSharesDilatation) {
+  if constexpr (kShares<Measure, Law>) {
 #pragma omp simd
     for (int l = 0; l < kBatchQuads; ++l) dilate_lane(batch, measure, step, dilatation, l);
   }
@@ -146,13 +153,13 @@ GS_ALWAYS_INLINE double quad_mean(const Batch& batch, const Measure& measure, co
 }
 
 /// `shared`: quad_mean().
-template <int T, class Measure>
+template <int T, class Law, class Measure>
 GS_ALWAYS_INLINE Pull pull(const Batch& batch, const Measure& measure, const double* state, double shared, int lane) {
   const Vec2 a = batch.arm(T, lane);
   const Vec2 b = batch.arm((T + 1) % kQuadTriangles, lane);
   const double thickness = measure.thickness(batch.centre_x[lane] + (a.x + b.x) * (1.0 / 3.0));
   Stress stress = stress_of(state, T * kBatchQuads + lane);
-  if constexpr (Measure::kSharesDilatation) {
+  if constexpr (kShares<Measure, Law>) {
     const double change = shared - mean(stress);
     stress = {stress.xx + change, stress.yy + change, stress.xy, stress.zz + change};
   }
@@ -174,16 +181,16 @@ struct Contributions {
   double* right_y;
 };
 
-template <class Measure>
+template <class Law, class Measure>
 GS_ALWAYS_INLINE void force_lane(const Batch& batch, const Measure& measure, const double* state, int first,
                                  const Contributions& upper, const Contributions& lower, double* min_twice_area,
                                  double* centre_x, double* centre_y, int l) {
   double shared = 0.0;
-  if constexpr (Measure::kSharesDilatation) shared = quad_mean(batch, measure, state, l);
-  const Pull bottom = pull<0>(batch, measure, state, shared, l);
-  const Pull right = pull<1>(batch, measure, state, shared, l);
-  const Pull top = pull<2>(batch, measure, state, shared, l);
-  const Pull left = pull<3>(batch, measure, state, shared, l);
+  if constexpr (kShares<Measure, Law>) shared = quad_mean(batch, measure, state, l);
+  const Pull bottom = pull<0, Law>(batch, measure, state, shared, l);
+  const Pull right = pull<1, Law>(batch, measure, state, shared, l);
+  const Pull top = pull<2, Law>(batch, measure, state, shared, l);
+  const Pull left = pull<3, Law>(batch, measure, state, shared, l);
   const double area_1 = bottom.twice_area < right.twice_area ? bottom.twice_area : right.twice_area;
   const double area_2 = top.twice_area < left.twice_area ? top.twice_area : left.twice_area;
   const double area = area_1 < area_2 ? area_1 : area_2;
@@ -207,7 +214,7 @@ GS_ALWAYS_INLINE void force_lane(const Batch& batch, const Measure& measure, con
 }
 
 /// Internal forces (they pull back: minus the gradient of the strain energy) with the geometry at the end of the step.
-template <class Measure>
+template <class Law, class Measure>
 GS_ALWAYS_INLINE void add_forces(const Batch& batch, const Measure& measure, const double* state, int first,
                                  const Contributions& upper, const Contributions& lower, RowSweep& row,
                                  double* min_twice_area) {
@@ -216,7 +223,7 @@ GS_ALWAYS_INLINE void add_forces(const Batch& batch, const Measure& measure, con
   double* centre_y = row.centre_force.y + first;
 #pragma omp simd
   for (int l = 0; l < kBatchQuads; ++l) {
-    force_lane(batch, measure, state, first, upper, lower, min_twice_area, centre_x, centre_y, l);
+    force_lane<Law>(batch, measure, state, first, upper, lower, min_twice_area, centre_x, centre_y, l);
   }
 }
 
@@ -253,6 +260,7 @@ void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   for (double& area : min_twice_area) area = 1e300;
   double plastic_work[kBatchQuads] = {};
   row.plastic_work = 0.0;
+  row.stored = 0.0;
   row.yielding = 0;
   row.unconverged = 0;
   alignas(kAlignment) Batch batch;
@@ -260,9 +268,9 @@ void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   double* state = row.state;
   for (int first = 0; first < row.quads; first += kBatchQuads) {
     load(row, first, batch);
-    predict(batch, elasticity(law), measure, row.step, state, flow);
+    predict(batch, law, measure, row.step, state, flow);
     correct(law, state, flow, parameter, lanes_of(row, first), plastic_work, row);
-    add_forces(batch, measure, state, first, upper, lower, row, min_twice_area);
+    add_forces<Law>(batch, measure, state, first, upper, lower, row, min_twice_area);
     state += Correction<Law>::kState * kBatchTriangles;
   }
   for (const double work : plastic_work) row.plastic_work += work;

@@ -23,11 +23,21 @@ inline scene::Impactor reference_foam() {
   slug.mutable_particle()->set_tangential_ratio(2.0 / 7.0);
   scene::Foam& foam = *impactor.mutable_foam();
   foam.set_elements(100);
-  foam.set_densest(0.9);
   foam.set_strength(0.01);
   foam.set_shock_width(0.03);
   foam.set_poisson(0.25);
   foam.set_contact_stiffness(1.0);
+  return impactor;
+}
+
+/// The reference plate's slug, a cylinder of spheres: in a solid of revolution.
+inline scene::Impactor reference_cylinder() {
+  scene::Impactor impactor = reference_foam();
+  scene::Slug& slug = *impactor.mutable_slug();
+  slug.set_height(0.15);
+  slug.set_speed(320.8);
+  slug.mutable_particle()->set_diameter(200e-6);
+  impactor.mutable_foam()->clear_densest();
   return impactor;
 }
 
@@ -37,18 +47,20 @@ class FoamRig final : public participant::ImpactorLink {
   struct Motion {
     std::function<double(double)> height = [](double) { return 0.0; };
     double sliding = 0.0;
+    double finer = 1.0;                                       ///< steps are shorter by that
+    scene::Symmetry symmetry = scene::SYMMETRY_PLANE_STRAIN;  ///< of revolution: the face is a disc, mirror is not read
   };
 
   FoamRig() = default;
   explicit FoamRig(Motion motion) : motion_(std::move(motion)) {}
 
-  /// Until `end` (s), with `steps` of the block's preferred ones in a window.
+  /// Until `end` (s), with `steps` of the block's preferred ones in a window, or of parts of them.
   void run(const scene::Impactor& impactor, double end, std::uint32_t steps = 1, bool mirror = true) {
     wire::Setup setup;
-    setup.set_symmetry(scene::SYMMETRY_PLANE_STRAIN);
+    setup.set_symmetry(motion_.symmetry);
     setup.set_depth(1e-3);
     setup.set_scene_hash(7);
-    setup.set_mirror(mirror);
+    setup.set_mirror(mirror && !ring());
     *setup.mutable_impactor()->mutable_impactor() = impactor;
     setup.mutable_impactor()->mutable_guards()->set_element_quality(0.01);
     wire::Surface& surface = *setup.mutable_impactor()->mutable_surface();
@@ -59,7 +71,7 @@ class FoamRig final : public participant::ImpactorLink {
     for (const std::uint32_t node : {0U, 1U, 1U, 2U}) surface.add_segment(node);
     FoamImpactor foam;
     ready = foam.prepare(setup);
-    window = steps * ready.preferred_step();
+    window = steps * ready.preferred_step() / motion_.finer;
     start_.set_window(window);
     start_.set_windows(static_cast<std::uint64_t>(end / window));
     start_.set_impactor_steps(steps);
@@ -104,7 +116,8 @@ class FoamRig final : public participant::ImpactorLink {
   std::vector<wire::Report> reports;
 
  private:
-  static std::vector<double> places() { return {-1.0, 0.1, 1.0}; }
+  [[nodiscard]] bool ring() const { return motion_.symmetry == scene::SYMMETRY_AXISYMMETRIC; }
+  [[nodiscard]] std::vector<double> places() const { return {ring() ? 0.0 : -1.0, 0.1, 1.0}; }
 
   Motion motion_;
   wire::Start start_;

@@ -193,6 +193,16 @@ TEST(StepPlan, RefusesAWindowThatIsLongerThanAContact) {
               ::testing::AllOf(HasSubstr("steps.structure"), HasSubstr("2.64e-07"), HasSubstr("2.4e-07")));
 }
 
+TEST(StepPlan, AFoamHasTwoStepsInAWindowAtMost) {
+  auto scene = automatic();
+  scene.mutable_impactor()->set_type(scene::Impactor::TYPE_FOAM);
+  const StepPlan plan = plan_steps(scene, 3e-3, impactor, {1e-6, 1e-6});
+  EXPECT_EQ(plan.impactor_steps, 2U);
+  EXPECT_EQ(plan.structure_steps, 1U);
+  scene.mutable_steps()->mutable_structure()->set_ratio(8);  // what the scene fixes is kept
+  EXPECT_EQ(plan_steps(scene, 3e-3, impactor, {1e-6, 1e-6}).impactor_steps, 8U);
+}
+
 TEST(StepPlan, RefusesAWindowThatIsLongerThanTheRun) {
   constexpr SideSteps unlimited{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   auto scene = automatic();
