@@ -63,8 +63,8 @@ void require_memory(const Preparation& p, int ranks, std::optional<std::uint64_t
   const std::string key = structure ? "structure.mesh.refinement" : of_impactor;
   const char* change = structure || foam ? "lower" : "raise";
   const std::string text = key + ": the run would take about " + gibibytes(needed) +
-                           " of memory, snapshots included, but this machine has " + gibibytes(*machine) + "; " + change +
-                           " it, or run on a larger machine";
+                           " of memory, snapshots included, but this machine has " + gibibytes(*machine) + "; " +
+                           change + " it, or run on a larger machine";
   if (ranks == 1) throw InputError(text);
   std::fprintf(stderr, "grainstep: warning: %s\n", text.c_str());
 }

@@ -133,7 +133,8 @@ std::string run_table(const Report& report) {
   return out;
 }
 
-/// The commit of the build that made a run, with a "+" where its tree was not committed; empty where the file does not say.
+/// The commit of the build that made a run, with a "+" where its tree was not committed; empty where the file does not
+/// say.
 std::string commit_of(const Outcome& outcome) {
   try {
     const auto file = results::h5::File::read(results::RunDirectory(outcome.directory).results());
