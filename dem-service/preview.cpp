@@ -9,11 +9,11 @@ namespace {
 
 // Measured on one core of 2020s server hardware: per particle and step, mean over an event, 40 to 43 ns with 8 and with
 // 31 thousand particles, 68 with 191 thousand beside other programs (docs/accuracy.md). Spheres: 51 ns with 6250 of
-// them (configs/small/plate-monolithic.yaml).
+// them (configs/small/plate-monolithic.yaml), 77 with 50 thousand (bench/README.md).
 constexpr double seconds_of_dynamics = 4.5e-8;
 constexpr std::uint64_t bytes_of_program = 60'000'000;
-constexpr std::uint64_t bytes_per_particle =
-    1'500;  // LAMMPS arrays, neighbour lists with histories (spheres: 900 loose, 1200 compacted)
+constexpr std::uint64_t bytes_per_particle = 1'500;  // LAMMPS arrays, neighbour lists with histories
+constexpr std::uint64_t bytes_per_sphere = 2'400;    // over a whole event, with a snapshot on its way (bench/README.md)
 // What a neighbour list as long as that of equal particles has in it; it reaches as far as two of the largest want it.
 // Measured with two sizes of ratio 3 by mass, 3.5 times as long: 5 ns more than equal discs on the same machine.
 constexpr double bytes_of_list = 100.0;
@@ -41,7 +41,8 @@ ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetr
   preview.process_bytes = bytes_of_program;
   const double more = length_of_list(model) - 1.0;
   const auto lists = static_cast<std::uint64_t>(more * bytes_of_list * static_cast<double>(model.particles));
-  preview.memory_bytes = bytes_of_program + bytes_per_particle * model.particles + lists;
+  preview.memory_bytes =
+      bytes_of_program + (model.spheres() ? bytes_per_sphere : bytes_per_particle) * model.particles + lists;
   preview.seconds_per_particle_step = seconds_of_dynamics + more * seconds_of_list;
   return preview;
 }

@@ -1,7 +1,7 @@
 // Oblique impacts: rebound and spin over angle and spin of approach, against the same law as an ordinary differential
 // equation and, where nothing is lost, against closed forms. The plan is that of tests 4 to 7 of Chung and Ooi
-// (Granular Matter 13, 2011); their spheres are Hertzian, ours are discs with linear springs. Test 8 (two sizes) needs
-// a slug of mixed diameters.
+// (Granular Matter 13, 2011); their spheres are Hertzian, ours are discs with linear springs. Test 8 (two sizes) is in
+// unequal_spin.cpp.
 #include <gtest/gtest.h>
 
 #include <numbers>
