@@ -1,5 +1,6 @@
 #include "dem-service/preview.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dem-service/slug_model.hpp"
@@ -9,8 +10,21 @@ namespace {
 
 // Measured on one core of 2020s server hardware: per particle and step, mean over an event, 40 to 43 ns with 8 and with
 // 31 thousand particles, 68 with 191 thousand beside other programs (docs/accuracy.md). Spheres: 51 ns with 6250 of
-// them (configs/small/plate-monolithic.yaml), 77 with 50 thousand (bench/README.md).
-constexpr double seconds_of_dynamics = 4.5e-8;
+// them (configs/small/plate-monolithic.yaml), 77 with 50 thousand (bench/README.md). Beyond some number they no longer
+// fit into the caches; 12.5 ns per factor e describes both.
+struct Dynamics {
+  double seconds, in_cache;  ///< per particle and step, of so many particles
+};
+constexpr Dynamics of_discs{4.5e-8, 31'000};
+constexpr Dynamics of_spheres{5.1e-8, 6'250};
+constexpr double seconds_beyond_cache = 1.25e-8;
+
+double seconds_of_dynamics(const SlugModel& model) {
+  const Dynamics& one = model.spheres() ? of_spheres : of_discs;
+  const double times = static_cast<double>(model.particles) / one.in_cache;
+  return one.seconds + seconds_beyond_cache * std::log(std::max(1.0, times));
+}
+
 constexpr std::uint64_t bytes_of_program = 60'000'000;
 constexpr std::uint64_t bytes_per_particle = 1'500;  // LAMMPS arrays, neighbour lists with histories
 constexpr std::uint64_t bytes_per_sphere = 2'400;    // over a whole event, with a snapshot on its way (bench/README.md)
@@ -43,7 +57,7 @@ ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetr
   const auto lists = static_cast<std::uint64_t>(more * bytes_of_list * static_cast<double>(model.particles));
   preview.memory_bytes =
       bytes_of_program + (model.spheres() ? bytes_per_sphere : bytes_per_particle) * model.particles + lists;
-  preview.seconds_per_particle_step = seconds_of_dynamics + more * seconds_of_list;
+  preview.seconds_per_particle_step = seconds_of_dynamics(model) + more * seconds_of_list;
   return preview;
 }
 
