@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "orchestrator_fidelity_table.hpp"
+#include "scene/sizes.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -100,7 +101,11 @@ const std::vector<Fidelity>& measured_fidelities() {
 }
 
 bool is_like_the_measured(const scene::Scene& scene) {
-  return scene.symmetry() == scene::SYMMETRY_PLANE_STRAIN && scene.impactor().type() == scene::Impactor::TYPE_SLUG &&
+  const scene::Slug& slug = scene.impactor().slug();
+  const bool plain = scene::Sizes(slug, scene::dimension(scene)).equal() && slug.angle() == 0.0 &&
+                     slug.offset() == 0.0 && !slug.has_tail_speed() && !slug.confined();
+  return plain && scene.symmetry() == scene::SYMMETRY_PLANE_STRAIN &&
+         scene.impactor().type() == scene::Impactor::TYPE_SLUG &&
          scene.structure().type() == scene::Structure::TYPE_BEAM && scene.structure().layers_size() == 1;
 }
 

@@ -82,9 +82,9 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   return out;
 }
 
-void print_warnings(const Preparation& preparation) {
+void print_warnings(const Preparation& preparation, const std::string& of) {
   for (const scene::Finding& warning : preparation.warnings) {
-    std::fprintf(stderr, "grainstep: warning: %s: %s\n", warning.path.c_str(), warning.text.c_str());
+    std::fprintf(stderr, "grainstep: warning: %s%s: %s\n", of.c_str(), warning.path.c_str(), warning.text.c_str());
   }
 }
 

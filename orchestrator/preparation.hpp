@@ -47,8 +47,8 @@ struct Preparation {
 /// The same for a scene that is loaded already; `options.scene` is not looked at.
 [[nodiscard]] Preparation prepare(scene::Scene scene, const RunOptions& options);
 
-/// To stderr, a line each: check and run say the same before anything starts.
-void print_warnings(const Preparation& preparation);
+/// To stderr, a line each: check, run and study say the same before anything starts. `of`: which scene, in front.
+void print_warnings(const Preparation& preparation, const std::string& of = "");
 
 /// Seconds that both sides compute, each on a core of its own; nothing where an external side does not say.
 struct Cost {

@@ -15,8 +15,8 @@ using Findings = std::vector<Finding>;
 
 std::string metres(double value) { return rounded_text(value) + " m"; }
 
-void slug_moves(const Slug& slug, Findings& findings) {
-  if (slug.speed() > 0) return;
+void slug_moves(const Scene& scene, Findings& findings) {
+  if (scene.impactor().slug().speed() > 0 || scene.structure().initial_velocity_size() > 0) return;
   findings.push_back({Severity::warning, "impactor.slug.speed", "a slug at rest: nothing will hit the structure"});
 }
 
@@ -40,7 +40,9 @@ void slug_is_above_the_structure(const Scene& scene, Findings& findings) {
                           " from mid-span and would fly past the structure, which ends at " + metres(half_span)});
 }
 
+/// As far as the slug alone decides: the structure may come to meet it.
 void slug_arrives(const Scene& scene, Findings& findings) {
+  if (scene.structure().initial_velocity_size() > 0) return;
   const Groups g = groups(scene);
   if (g.arrival < g.end) return;
   findings.push_back({Severity::error, "impactor.slug.stand_off",
@@ -59,15 +61,22 @@ constexpr double refused_hole = 1.0 / 3.0;
 void slice_reaches_the_axis(const Scene& scene, Findings& findings) {
   if (scene.symmetry() != SYMMETRY_AXISYMMETRIC) return;
   const Slug& slug = scene.impactor().slug();
-  const double hole = 0.5 * slug.particle().diameter() / std::sin(0.5 * slug.slice_angle());
+  // Sand is missing as far out as its mass is in spheres that do not fit.
+  const Sizes sizes(slug, dimension(scene));
+  const double by_mass = slug.particle().diameter() * sizes.mean_of_power(4) / sizes.mean_of_power(3);
+  const double hole = 0.5 * by_mass / std::sin(0.5 * slug.slice_angle());
   if (hole <= largest_hole * slug.half_width() || hole > refused_hole * slug.half_width()) return;
   findings.push_back({Severity::warning, "impactor.slug.slice_angle",
-                      "no sphere fits into the slice nearer to the axis than " + metres(hole) + ", " +
-                          rounded_text(hole / slug.half_width()) +
+                      "spheres do not fit into the slice nearer to the axis than " + metres(hole) +
+                          " (mean by mass), " + rounded_text(hole / slug.half_width()) +
                           " of the slug's radius: the plate will bend too little; take a wider slice or smaller "
                           "particles, for a ratio of at most " +
                           rounded_text(largest_hole)});
 }
+
+/// Small particles between large ones are squeezed: the largest overlap of the reference event over that of equal
+/// particles, fitted to ranges of 3 to 8 (docs/decisions/0013-particles-of-many-sizes.md).
+double squeeze(const Sizes& sizes) { return std::pow(sizes.largest() / sizes.smallest(), 0.27); }
 
 /// Largest overlap (2.1) of one of the largest particles that meets a rigid wall head-on, over its diameter: a damped
 /// oscillator that starts at `speed` with mass m on Kn, whose damping ratio returns the restitution.
@@ -75,11 +84,13 @@ double head_on_overlap(const Scene& scene) {
   const Slug& slug = scene.impactor().slug();
   const Particle& particle = slug.particle();
   const bool sphere = dimension(scene) == 3;
-  const double d = particle.diameter() * Sizes(slug, dimension(scene)).largest();
+  const Sizes sizes(slug, dimension(scene));
+  const double d = particle.diameter() * sizes.largest();
   const double volume = std::numbers::pi * d * d * (sphere ? d / 6.0 : scene.depth() / 4.0);
   const double frequency = std::sqrt(particle.normal_stiffness() / (particle.density() * volume));
   const double decay = -std::log(particle.restitution()) / std::numbers::pi;  // zeta/sqrt(1 - zeta^2)
-  return slug.speed() / frequency * std::exp(-decay * std::atan2(1.0, decay)) / d;
+  const double speed = std::max(slug.speed(), slug.tail_speed()) * std::cos(slug.angle());
+  return squeeze(sizes) * speed / frequency * std::exp(-decay * std::atan2(1.0, decay)) / d;
 }
 
 /// What the guard of the run will say, before the run.
@@ -87,10 +98,11 @@ void contact_turns_particles_round(const Scene& scene, Findings& findings) {
   const double overlap = head_on_overlap(scene);
   const double allowed = scene.guards().overlap();
   if (overlap <= allowed) return;
-  findings.push_back({Severity::warning, "impactor.slug.particle.normal_stiffness",
-                      "too soft for this speed: a particle that hits a wall head-on overlaps it by " +
-                          rounded_text(overlap) + " of its diameter, and guards.overlap stops a run at " +
-                          rounded_text(allowed) + "; the overlap falls with the root of the stiffness"});
+  findings.push_back(
+      {Severity::warning, "impactor.slug.particle.normal_stiffness",
+       "too soft for this speed: a particle that hits a wall head-on, or is squeezed by larger ones, overlaps by " +
+           rounded_text(overlap) + " of its diameter, and guards.overlap stops a run at " + rounded_text(allowed) +
+           "; the overlap falls with the root of the stiffness"});
 }
 
 }  // namespace
@@ -100,7 +112,7 @@ void check_encounter(const Scene& scene, Findings& findings) {
   if (!foam) {
     slug_is_no_wider(scene, findings);
     slug_is_above_the_structure(scene, findings);
-    slug_moves(scene.impactor().slug(), findings);
+    slug_moves(scene, findings);
     contact_turns_particles_round(scene, findings);
     slice_reaches_the_axis(scene, findings);
   }

@@ -71,7 +71,10 @@ void add_slug(const Scene& scene, Groups& g) {
   g.areal_mass_ratio = areal_mass_ratio(rho_bar, rho_s, slug.height(), g.areal_mass);
   g.width_ratio = slug.half_width() / scene.structure().half_span();
   g.slug_time = slug.height() / slug.speed();
-  g.arrival = slug.stand_off() > 0 ? slug.stand_off() / (slug.speed() * std::cos(slug.angle())) : 0;
+  // Speeds are linear in the height, so the first to arrive is of the head or, where it is faster, of the tail.
+  const double of_head = slug.stand_off() / slug.speed();
+  const double of_tail = (slug.stand_off() + slug.height() * std::cos(slug.angle())) / tail_speed;
+  g.arrival = slug.stand_off() > 0 ? std::min(of_head, of_tail) / std::cos(slug.angle()) : 0;
   g.loading_time_ratio = loading_time_ratio(g.slug_time, g.reference_time);
   g.slug_pressure = rho_bar * rho_s * slug.speed() * slug.speed();
   g.loaded_width = (scene.structure().extent() == Structure::EXTENT_HALF ? 1.0 : 2.0) * slug.half_width();

@@ -51,11 +51,11 @@ struct Groups {
   double loading_time_ratio = absent;  ///< tau; infinite for a slug at rest
   double reference_time = 0;           ///< L sqrt(rho_m/sigma_Y), s
   double slug_time = absent;           ///< H/v0, s: t_hat = 1; infinite for a slug at rest
-  double arrival = 0;                  ///< stand_off/(v0 cos(angle)), s: first contact
-  double slug_pressure = absent;       ///< rho_bar rho_s v0^2, Pa: what contact pressure is measured in
-  double loaded_width = 0;             ///< m, along x1, of what is modelled: 2a of (4.4), or a of a half model
-  double loaded_area = 0;              ///< m^2, of what is modelled: the width times b, or the disc or ring of it
-  double end = 0;                      ///< end of the run, s
+  double arrival = 0;  ///< s: first contact with a structure at rest; stand_off/(v0 cos(angle)), or of a faster tail
+  double slug_pressure = absent;  ///< rho_bar rho_s v0^2, Pa: what contact pressure is measured in
+  double loaded_width = 0;        ///< m, along x1, of what is modelled: 2a of (4.4), or a of a half model
+  double loaded_area = 0;         ///< m^2, of what is modelled: the width times b, or the disc or ring of it
+  double end = 0;                 ///< end of the run, s
 };
 
 /// Whether the scene's impactor is described by its slug.

@@ -141,6 +141,7 @@ int study(const StudyOptions& options) {
   const int jobs =
       options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const auto style = orchestrator::Progress::style_for(stdout, options.quiet);
+  for (const PlannedPoint& point : plan.points) orchestrator::print_warnings(point.preparation, point.id + ": ");
   const bool whole = execute(plan, {.jobs = jobs, .ranks = options.ranks, .progress = style}, outcomes);
   Numbers numbers(plan, outcomes);
   numbers.compute_columns();

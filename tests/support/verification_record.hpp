@@ -3,6 +3,7 @@
 /// tests/verification/record.py is the same for Python.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct Comparison {
 /// Expects |found - expected| <= allowed(comparison) (a NaN fails) and records it. Throws std::invalid_argument for an
 /// unknown group.
 void check(const Comparison& comparison);
+
+/// The larger of two, and not a number if one of them is: for the largest error of many.
+[[nodiscard]] inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 struct Series {
   enum class Mark { points, line };

@@ -187,7 +187,7 @@ TEST(DemWallGran, EveryBitOfEveryParticleAgrees) {
   int differing = 0;
   for (std::size_t n = 1; n <= steps; ++n) {
     theirs.step();
-    worst = std::max(worst, norm(theirs.momentum() - momentum - on_slug[n]) / norm(momentum));
+    worst = verification::larger(worst, norm(theirs.momentum() - momentum - on_slug[n]) / norm(momentum));
     if (n % compared_every != 0) continue;
     const std::vector<Motion2> mine = motion_of(ours.snapshots[n / compared_every]);
     const std::vector<Motion2> plain = theirs.motion();

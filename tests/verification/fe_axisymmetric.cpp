@@ -37,7 +37,7 @@ double stress_error(const Body& body, const Stress& expected) {
   test::for_each_triangle(body, [&](int row, int column, int triangle) {
     const Stress s = body.stress(row, column, triangle);
     for (const double error : {s.xx - expected.xx, s.yy - expected.yy, s.xy - expected.xy, s.zz - expected.zz}) {
-      worst = std::max(worst, std::abs(error));
+      worst = verification::larger(worst, std::abs(error));
     }
   });
   return worst;
@@ -50,7 +50,7 @@ double force_error(const Body& body, double stress) {
     for (std::size_t i = 0; i < nodes->x.size(); ++i) {
       if (!(nodes->mass[i] > 0.0) || on_edge(body, *nodes, i)) continue;
       const double side = 2.0 * M_PI * nodes->x[i] * kSide;
-      worst = std::max(worst, std::hypot(nodes->fx[i], nodes->fy[i]) / (stress * side));
+      worst = verification::larger(worst, std::hypot(nodes->fx[i], nodes->fy[i]) / (stress * side));
     }
   }
   return worst;

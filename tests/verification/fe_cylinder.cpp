@@ -133,7 +133,7 @@ double unevenness(int columns) {
   for (int row = 0; row <= mesh.row_count() / 2; ++row) {
     const double difference =
         body.corners.v[mesh.corner({row, 0})] - body.corners.v[mesh.corner({row, mesh.columns / 2})];
-    worst = std::max(worst, std::abs(difference) * law.density * c / pressure);
+    worst = verification::larger(worst, std::abs(difference) * law.density * c / pressure);
   }
   return worst;
 }

@@ -48,7 +48,7 @@ double stress_error(const Body& body, const Stress& expected) {
   test::for_each_triangle(body, [&](int row, int column, int triangle) {
     const Stress s = body.stress(row, column, triangle);
     for (const double error : {s.xx - expected.xx, s.yy - expected.yy, s.xy - expected.xy, s.zz - expected.zz}) {
-      worst = std::max(worst, std::abs(error));
+      worst = verification::larger(worst, std::abs(error));
     }
   });
   return worst / von_mises(expected);

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "../../support/fe_motion.hpp"
-#include "../../support/fe_scenes.hpp"
+#include "../../support/fe_block.hpp"
 #include "fe-service/layers.hpp"
 
 namespace grainstep::fe {
@@ -179,12 +178,6 @@ TEST(Core, TensionUndoesCompaction) {
   EXPECT_NEAR(point.stress.yy, law.strength, 1e-9 * law.strength);
 }
 
-/// Two elements' height of core, moved by hand.
-Body core_block(const Core& law, const Kernels& kernels = *available_kernels().front()) {
-  const scene::Structure structure = test::beam(scene::Layer::MATERIAL_ELASTIC, 9e-3, 4e-3, 2);
-  return {make_mesh(structure), {law}, PlaneStrain{1e-3}, kernels};
-}
-
 // On every instruction set: the point's law, in every triangle, while the block is crushed and sheared homogeneously;
 // and again while it turns.
 class CoreBody : public testing::TestWithParam<const Kernels*> {};
@@ -194,7 +187,7 @@ TEST_P(CoreBody, CrushingTurnsWithTheBody) {
   const double step = 1e-7;
   const int steps = 400;
   for (const double turns : {0.0, 0.3}) {
-    Body body = core_block(law, *GetParam());
+    Body body = test::block_of(law, *GetParam());
     Point point;
     double work = 0.0;
     double expected_work = 0.0;
@@ -211,7 +204,7 @@ TEST_P(CoreBody, CrushingTurnsWithTheBody) {
       const Stress before = point.stress;
       const double compaction = point.compaction;
       point = update(law, point, {0.0, 2.0 * (next - height) / (next + height), 0.0, 0.0}, step);
-      area = 9e-3 * 4e-3 * 0.5 * (next + height);
+      area = test::block_width * test::block_height * 0.5 * (next + height);
       // Plastic increments from the differences of strain and stress.
       const Stress change = {point.stress.xx - before.xx, point.stress.yy - before.yy, 0.0,
                              point.stress.zz - before.zz};
@@ -226,14 +219,8 @@ TEST_P(CoreBody, CrushingTurnsWithTheBody) {
     const Stress expected = turned(point.stress, std::cos(2.0 * angle), std::sin(2.0 * angle));
     // Discretisation: gradients in the middle of a step that also turns see cos(pi turns/steps) of the body.
     const double tolerance = turns == 0.0 ? 1e-9 : 2e-4;
-    test::for_each_triangle(body, [&](int row, int column, int triangle) {
-      const Stress found = body.stress(row, column, triangle);
-      EXPECT_NEAR(found.xx, expected.xx, tolerance * von_mises(expected));
-      EXPECT_NEAR(found.yy, expected.yy, tolerance * von_mises(expected));
-      EXPECT_NEAR(found.xy, expected.xy, tolerance * von_mises(expected));
-      EXPECT_NEAR(found.zz, expected.zz, tolerance * von_mises(expected));
-      EXPECT_NEAR(body.plastic_strain(row, column, triangle), point.compaction, tolerance);
-    });
+    test::expect_stress(body, expected, tolerance * von_mises(expected));
+    test::expect_plastic_strain(body, point.compaction, tolerance);
     EXPECT_GT(point.compaction, law.densified);
     EXPECT_NEAR(work, expected_work, (turns == 0.0 ? 1e-8 : 1e-3) * expected_work);
   }
@@ -245,7 +232,7 @@ TEST_P(CoreBody, ShearEndsAtItsStrength) {
   for (const double ratio : {1.0, 0.5}) {
     Core law = make_law(0.25, 0.0);
     law.shear = ratio * law.strength;
-    Body body = core_block(law, *GetParam());
+    Body body = test::block_of(law, *GetParam());
     const double step = 1e-6;
     for (int n = 1; n <= 100; ++n) {
       test::for_each_node(body, [&](Nodes& nodes, std::size_t i) {

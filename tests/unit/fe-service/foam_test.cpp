@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "../../support/fe_motion.hpp"
-#include "../../support/fe_scenes.hpp"
+#include "../../support/fe_block.hpp"
 #include "fe-service/layers.hpp"
 
 namespace grainstep::fe {
@@ -194,12 +193,6 @@ TEST(Foam, EveryStepMeetsTheFlowRule) {
   EXPECT_GT(locked, 100);
 }
 
-/// Two elements' height of foam, moved by hand.
-Body foam_block(const Foam& law, const Kernels& kernels = *available_kernels().front()) {
-  const scene::Structure structure = test::beam(scene::Layer::MATERIAL_ELASTIC, 9e-3, 4e-3, 2);
-  return {make_mesh(structure), {law}, PlaneStrain{1e-3}, kernels};
-}
-
 class FoamBody : public testing::TestWithParam<const Kernels*> {};
 
 // On every instruction set: the point's law, in every triangle, while the block is crushed beyond locking; again while
@@ -209,7 +202,7 @@ TEST_P(FoamBody, CrushingTurnsWithTheBodyAndKeepsEnergy) {
   const double step = 5e-8;
   const int steps = 2000;
   for (const double turns : {0.0, 0.3}) {
-    Body body = foam_block(law, *GetParam());
+    Body body = test::block_of(law, *GetParam());
     Point point;
     double plastic = 0.0;
     double stored = 0.0;
@@ -227,21 +220,15 @@ TEST_P(FoamBody, CrushingTurnsWithTheBodyAndKeepsEnergy) {
       stored += result.stored;
       const double before = point.stress.yy;
       point = update(law, point, {0.0, 2.0 * (next - height) / (next + height), 0.0, 0.0}, step);
-      put_in += 0.5 * (before + point.stress.yy) * (next - height) * 9e-3 * 4e-3 * 1e-3;
+      put_in += 0.5 * (before + point.stress.yy) * (next - height) * test::block_width * test::block_height * 1e-3;
       height = next;
     }
     const double angle = 2.0 * M_PI * turns;
     const Stress expected = turned(point.stress, std::cos(2.0 * angle), std::sin(2.0 * angle));
     // Discretisation: gradients in the middle of a step that also turns see cos(pi turns/steps) of the body.
     const double tolerance = turns == 0.0 ? 1e-9 : 2e-4;
-    test::for_each_triangle(body, [&](int row, int column, int triangle) {
-      const Stress found = body.stress(row, column, triangle);
-      EXPECT_NEAR(found.xx, expected.xx, tolerance * s_hat(expected));
-      EXPECT_NEAR(found.yy, expected.yy, tolerance * s_hat(expected));
-      EXPECT_NEAR(found.xy, expected.xy, tolerance * s_hat(expected));
-      EXPECT_NEAR(found.zz, expected.zz, tolerance * s_hat(expected));
-      EXPECT_NEAR(body.plastic_strain(row, column, triangle), point.strain, tolerance);
-    });
+    test::expect_stress(body, expected, tolerance * s_hat(expected));
+    test::expect_plastic_strain(body, point.strain, tolerance);
     EXPECT_EQ(point.strain, law.locked);
     EXPECT_NEAR(stored + plastic, put_in, tolerance * put_in);
   }
@@ -254,7 +241,7 @@ TEST_P(FoamBody, AnElasticCycleGivesBackWhatItStored) {
   const double step = 5e-8;
   constexpr int half = 500;
   for (const double turns : {0.0, 0.3}) {
-    Body body = foam_block(law, *GetParam());
+    Body body = test::block_of(law, *GetParam());
     double stored = 0.0;
     double most = 0.0;
     for (int n = 1; n <= 2 * half; ++n) {
@@ -269,7 +256,7 @@ TEST_P(FoamBody, AnElasticCycleGivesBackWhatItStored) {
     // As the stress, which a turn of half a radian in 1000 steps leaves by its discretisation.
     EXPECT_NEAR(stored, 0.0, (turns == 0.0 ? 1e-12 : 1e-6) * most);
     // Between both, by less than the third order of the strain: V s^2/2M by the present volume.
-    const double volume = 9e-3 * 4e-3 * 1e-3;
+    const double volume = test::block_width * test::block_height * 1e-3;
     const double modulus = law.elastic.longitudinal_modulus();
     const double exact = volume * modulus * (0.9 * std::log(0.9) - 0.9 + 1.0);  // integral of M ln J dJ
     EXPECT_NEAR(most, exact, 1e-4 * exact);

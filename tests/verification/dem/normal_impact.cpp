@@ -56,7 +56,8 @@ Comparison restitution_of(Partner partner) {
 
 void check_means(Partner partner, double steps) {
   double worst = 0.0;
-  for (const double e : restitutions) worst = std::max(worst, std::abs(mean(measured(e, partner, steps)) - e));
+  for (const double e : restitutions)
+    worst = verification::larger(worst, std::abs(mean(measured(e, partner, steps)) - e));
   Comparison c = restitution_of(partner);
   c.quantity = "largest |mean e found - e| for e = 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99 at t_e/" +
                std::to_string(static_cast<int>(steps));

@@ -43,7 +43,7 @@ double error_of(const std::vector<Motion2>& before, const std::vector<Motion2>& 
     const double scale = std::hypot(before[i].normal, before[i].tangential, radius * before[i].spin);
     for (const double difference : {found[i].normal - expected[i].normal, found[i].tangential - expected[i].tangential,
                                     radius * (found[i].spin - expected[i].spin)}) {
-      worst = std::max(worst, std::abs(difference) / scale);
+      worst = verification::larger(worst, std::abs(difference) / scale);
     }
   }
   return worst;

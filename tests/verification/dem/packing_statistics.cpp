@@ -78,7 +78,7 @@ TEST(PackingStatistics, SolidFractionIsExactToOneParticle) {
       const rig::ScriptedLink link = rig::run_slug(setup, rig::start_of(model.preferred_step, 1));
       const double area = 2.0 * model.half_width * model.height;
       const double wanted = fraction * area / (section * diameter * diameter);
-      worst = std::max(worst, std::abs(link.snapshots.front().position_size() / 2 - wanted));
+      worst = verification::larger(worst, std::abs(link.snapshots.front().position_size() / 2 - wanted));
     }
   }
   check("largest difference from the number rho W H/(pi D^2/4), in particles", 0.0, worst, 0.5,
@@ -108,7 +108,7 @@ TEST(PackingStatistics, IsIsotropicAndUniform) {
       pairs += 1.0;
     });
     double worst = 0.0;
-    for (int k = 0; k < 3; ++k) worst = std::max(worst, std::hypot(wave[0][k], wave[1][k]) / pairs);
+    for (int k = 0; k < 3; ++k) worst = verification::larger(worst, std::hypot(wave[0][k], wave[1][k]) / pairs);
     const std::string where = ", solid fraction " + std::to_string(fraction).substr(0, 4);
     check("largest mean of exp(i k theta) over neighbours within 1.5 D, k = 2, 4, 6" + where, 0.0, worst,
           4.0 / std::sqrt(pairs / 2.0), "statistics: four standard deviations of that many pairs", "isotropy");

@@ -80,7 +80,7 @@ TEST(SlicePacking, IsUniformAlongTheRadiusAndBesideThePlanes) {
   for (int seed = 1; seed <= seeds; ++seed) {
     const std::vector<Vec3> centres = centres_of(static_cast<std::uint64_t>(seed));
     const double wanted = fraction * 0.5 * slice * slug_radius * slug_radius * slug_height / volume_of_one;
-    off = std::max(off, std::abs(static_cast<double>(centres.size()) - wanted));
+    off = verification::larger(off, std::abs(static_cast<double>(centres.size()) - wanted));
     for (std::size_t i = 0; i < beside.x.size(); ++i) {
       beside.y[i] += solid_beside_planes(centres, beside.x[i] * diameter) / seeds;
     }
@@ -107,7 +107,7 @@ TEST(SlicePacking, IsUniformAlongTheRadiusAndBesideThePlanes) {
   for (std::size_t i = 0; i < along.x.size(); ++i) {
     const double r = along.x[i] * slug_radius;
     if (r < empty + ring || r > slug_radius - 0.5 * diameter - ring) continue;
-    worst = std::max(worst, std::abs(along.y[i] / uniform - 1.0));
+    worst = verification::larger(worst, std::abs(along.y[i] / uniform - 1.0));
   }
   check("mean solid fraction over the rings that can hold centres",
         fraction * slug_radius * slug_radius / (std::pow(slug_radius - 0.5 * diameter, 2) - empty * empty), uniform,

@@ -151,7 +151,7 @@ void check(const Roller& roller) {
           found.friction_energy, 1e-3, swinging);
   double worst = 0.0;
   for (std::size_t i = 0; i < found.time.size(); ++i) {
-    worst = std::max(worst, std::abs(found.velocity[i] - roller.inertia * found.rim[i] - speed) / speed);
+    worst = verification::larger(worst, std::abs(found.velocity[i] - roller.inertia * found.rim[i] - speed) / speed);
   }
   compare("largest change of the angular momentum about the floor, over the whole", "", 0.0, worst, 1e-12,
           "exact: round-off");

@@ -115,7 +115,7 @@ double distance(const Case& one, const std::vector<PlacedParticle>& particles, d
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     sum += weight(sizes[i]);
     const bool last = i + 1 == sizes.size() || sizes[i + 1] > sizes[i] * (1.0 + 1e-9);
-    if (last) worst = std::max(worst, std::abs(sum / all - asked(one, sizes[i] * (1.0 + 1e-12))));
+    if (last) worst = verification::larger(worst, std::abs(sum / all - asked(one, sizes[i] * (1.0 + 1e-12))));
   }
   return worst;
 }
@@ -153,16 +153,16 @@ TEST(UnequalPacking, IsAsDenseAsAskedAndFreeOfOverlap) {
           solid += spheres ? std::numbers::pi / 6.0 * std::pow(p.diameter, 3)
                            : std::numbers::pi / 4.0 * std::pow(p.diameter, 2);
           const double across = spheres ? std::hypot(p.position[0], p.position[2]) : std::abs(p.position[0]);
-          outside = std::max(outside, (across + 0.5 * p.diameter) / model.half_width - 1.0);
-          if (spheres) outside = std::max(outside, (0.5 * p.diameter - p.position[2]) / model.half_width);
+          outside = verification::larger(outside, (across + 0.5 * p.diameter) / model.half_width - 1.0);
+          if (spheres) outside = verification::larger(outside, (0.5 * p.diameter - p.position[2]) / model.half_width);
           for (std::size_t j = 0; j < i; ++j) {
             const double reach = 0.5 * (p.diameter + particles[j].diameter);
-            deepest = std::max(deepest, 1.0 - norm(p.position - particles[j].position) / reach);
+            deepest = verification::larger(deepest, 1.0 - norm(p.position - particles[j].position) / reach);
           }
         }
         const double room = spheres ? 0.5 * model.slice * model.half_width * model.half_width * model.height
                                     : 2.0 * model.half_width * model.height;
-        off = std::max(off, std::abs(solid / (fraction * room) - 1.0));
+        off = verification::larger(off, std::abs(solid / (fraction * room) - 1.0));
       }
     }
   }

@@ -125,7 +125,7 @@ double error_of(const Pairs& pairs, const std::vector<Relative>& before, const s
     for (const double difference : {found[i].normal - expected[i].normal, found[i].tangential - expected[i].tangential,
                                     pairs.small() * (found[i].spin - expected[i].spin),
                                     pairs.large() * (found[i].other_spin - expected[i].other_spin)}) {
-      worst = std::max(worst, std::abs(difference) / scale);
+      worst = verification::larger(worst, std::abs(difference) / scale);
     }
   }
   return worst;
