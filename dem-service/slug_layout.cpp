@@ -17,17 +17,11 @@ double speed_at(const SlugModel& model, double from_head) {
   return model.speed + (model.tail_speed - model.speed) * from_head / model.height;
 }
 
-/// The largest first. Sizes are scaled by what is missing to the slug's mass, or too much of it, because their number
-/// is whole: by half of the largest one's mass at most, over that of all.
+/// The largest first.
 std::vector<double> diameters_of(const SlugModel& model) {
   std::vector<double> diameters = model.sizes.descending(model.particles);
-  for (double& diameter : diameters) diameter *= model.diameter;
-  if (model.sizes.equal()) return diameters;
-  double mass = 0.0;
-  for (const double diameter : diameters) mass += model.mass_of(diameter);
-  const double wanted = model.mass * static_cast<double>(model.particles);
-  const double scale = std::pow(wanted / mass, model.spheres() ? 1.0 / 3.0 : 1.0 / 2.0);
-  for (double& diameter : diameters) diameter *= scale;
+  const double scale = model.scale_of_sizes();
+  for (double& diameter : diameters) diameter *= scale * model.diameter;
   return diameters;
 }
 

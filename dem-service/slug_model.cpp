@@ -126,6 +126,30 @@ double SlugModel::mass_of(double of_diameter) const {
   return density * (spheres() ? std::numbers::pi * d * d * d / 6.0 : std::numbers::pi * d * d / 4.0);
 }
 
+double SlugModel::scale_of_sizes() const {
+  if (sizes.equal()) return 1.0;
+  double of_all = 0.0;
+  for (const double size : sizes.descending(particles)) of_all += mass_of(size * diameter);
+  return std::pow(mass * static_cast<double>(particles) / of_all, spheres() ? 1.0 / 3.0 : 1.0 / 2.0);
+}
+
+namespace {
+
+/// Sizes come out as asked for, but for round-off of their number.
+void check_sizes_found(const SlugModel& model) {
+  constexpr double most = 0.01;
+  const double off = std::abs(model.scale_of_sizes() - 1.0);
+  if (off <= most) return;
+  std::ostringstream text;
+  text << "impactor.slug.size_distribution: " << model.particles
+       << " particles are too few for it: all diameters would "
+       << "have to be scaled by " << 100.0 * off << "% for the slug's mass, expected " << 100.0 * most
+       << "% at most. Take smaller particles, a larger slug or a narrower distribution";
+  throw InputError(text.str());
+}
+
+}  // namespace
+
 SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
   check(impactor, symmetry, depth, mirror);
   const scene::Slug& slug = impactor.slug();
@@ -147,6 +171,7 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   model.diameter = particle.diameter();
   model.sizes = sizes_of(slug, symmetry);
   set_particles(particle, depth, model);
+  check_sizes_found(model);
 
   const double kn = particle.normal_stiffness();
   model.pair_law = {kn, kn * particle.tangential_ratio(), 0.0, particle.friction(), false};

@@ -49,6 +49,8 @@ struct SlugModel {
   [[nodiscard]] double largest() const { return sizes.largest() * diameter; }    ///< m, diameter
   /// kg, of a particle of this diameter: rho_s b pi D^2/4 or rho_s pi D^3/6.
   [[nodiscard]] double mass_of(double of_diameter) const;
+  /// By what sizes are scaled for the slug's exact mass, because the number of particles is whole; 1 if all are equal.
+  [[nodiscard]] double scale_of_sizes() const;
   /// What is modelled of the whole: sums over a slice's particles times this are those of the full circle.
   [[nodiscard]] double whole() const { return spheres() ? 2.0 * std::numbers::pi / slice : 1.0; }
   /// Rotational inertia over m R^2.

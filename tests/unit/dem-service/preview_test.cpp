@@ -60,6 +60,13 @@ TEST(Preview, ManySizes) {
 
   sizes.mutable_uniform()->set_width(0.9);
   expect_refused(mixed, "size_distribution.uniform.width");
+
+  // A class of less than half a particle, which carries 2% of the mass.
+  scene::Impactor rare = impactor();
+  scene::TabulatedSizes& table = *rare.mutable_slug()->mutable_size_distribution()->mutable_tabulated();
+  for (const double size : {1.0, 10.0}) table.add_size(size);
+  for (const double fraction : {0.9998, 0.0002}) table.add_fraction(fraction);
+  expect_refused(rare, "too few");
 }
 
 TEST(Preview, RefusesWhatCannotBeComputed) {
