@@ -13,8 +13,6 @@ namespace {
 
 using Findings = std::vector<Finding>;
 
-std::string metres(double value) { return rounded_text(value) + " m"; }
-
 void slug_moves(const Scene& scene, Findings& findings) {
   if (scene.impactor().slug().speed() > 0 || scene.structure().initial_velocity_size() > 0) return;
   findings.push_back({Severity::warning, "impactor.slug.speed", "a slug at rest: nothing will hit the structure"});

@@ -21,4 +21,7 @@ namespace grainstep::scene {
   return {buffer.data(), result.ptr};
 }
 
+/// A length, for messages to people.
+[[nodiscard]] inline std::string metres(double value) { return rounded_text(value) + " m"; }
+
 }  // namespace grainstep::scene
