@@ -5,8 +5,8 @@
 #include "fe-service/deformable.hpp"
 #include "fe-service/foam/block.hpp"
 #include "fe-service/layers.hpp"
+#include "fe-service/rigid.hpp"
 #include "fe-service/solid.hpp"
-#include "participant/schedule.hpp"
 
 namespace grainstep::fe {
 
@@ -89,7 +89,11 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
   found.density = structure.layers(0).density();
   for (const scene::Layer& layer : structure.layers()) found.areal_mass += layer.density() * layer.thickness();
   if (structure.type() == scene::Structure::TYPE_RIGID) {
-    found.stable_step = found.preferred_step = participant::no_step_limit;
+    wire::Ready ready;
+    Rigid(structure, measure).fill_ready(ready);
+    found.stable_step = ready.stable_step();
+    found.preferred_step = ready.preferred_step();
+    found.free_mass = ready.free_mass();
   } else {
     preview_deformable(structure, measure, found);
   }
@@ -103,6 +107,8 @@ FoamPreview preview_foam(const scene::Impactor& impactor, const FoamSetting& set
   found.elements = model.mesh.triangles();
   found.stable_step = stable_step_in_touch(model, body, body.stable_step());
   found.preferred_step = preferred_foam_step(model, found.stable_step);
+  found.contact_time = kFoamStepsPerContact * found.preferred_step;
+  found.longest_window = kFoamStepsPerWindow * found.preferred_step;
   found.contact_mass = heaviest_of_face(body);
   found.memory_bytes = memory_bytes(model.mesh, {model.foam});
   found.seconds_per_element_step = kFoamSeconds;

@@ -18,6 +18,7 @@ struct StructurePreview {
   double stable_step = 0.0;     ///< s, of the undeformed mesh, by the function that the run uses
   double preferred_step = 0.0;  ///< s
   double contact_mass = 0.0;    ///< kg, of a node inside the surface; 0 for a rigid target
+  double free_mass = 0.0;       ///< kg, of a free rigid target, else 0
   std::uint64_t memory_bytes = 0;
   double seconds_per_element_step = 0.0;  ///< an estimate from bench_fe_kernel (docs/decisions/0003-element-loop.md)
 };
@@ -27,6 +28,8 @@ struct FoamPreview {
   double stable_step = 0.0;     ///< s
   double preferred_step = 0.0;  ///< s
   double contact_mass = 0.0;    ///< kg, of a node of the leading face
+  double contact_time = 0.0;    ///< s
+  double longest_window = 0.0;  ///< s
   std::uint64_t memory_bytes = 0;
   double seconds_per_element_step = 0.0;
 };

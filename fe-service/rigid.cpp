@@ -51,6 +51,7 @@ void Rigid::fill_ready(wire::Ready& ready) const {
   ready.set_stable_step(participant::no_step_limit);
   ready.set_preferred_step(participant::no_step_limit);
   ready.set_mass(mass_);
+  if (free_) ready.set_free_mass(mass_);
   wire::Surface& surface = *ready.mutable_surface();
   fill_nodes(*surface.mutable_position(), *surface.mutable_velocity(), velocity_);
   for (std::uint32_t k = 1; k < outline_.size(); ++k) {

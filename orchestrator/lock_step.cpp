@@ -159,9 +159,11 @@ void LockStep::require_motion(const Peer& structure) {
 
 // The next window after `window` at which a report, or else a snapshot, is due.
 std::uint64_t LockStep::next_due(std::uint64_t window, bool report) const {
-  const std::uint64_t every = report ? start_.report_every() : start_.snapshot_every();
-  const std::uint64_t next = every == 0 ? start_.windows() + 1 : (window / every + 1) * every;
-  return report ? std::min(next, start_.windows()) : next;
+  for (++window; window <= start_.windows(); ++window) {
+    const participant::Due due = participant::due_at(start_, window);
+    if (report ? due.report : due.snapshot) break;
+  }
+  return window;
 }
 
 void LockStep::on_report(Peer& peer, const wire::Frame& frame) {

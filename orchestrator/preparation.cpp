@@ -36,6 +36,8 @@ ImpactorPreview of_foam(const scene::Scene& scene, bool mirror) {
   const fe::FoamPreview foam = fe::preview_foam(scene.impactor(), {scene.symmetry(), scene.depth(), mirror});
   return {.elements = foam.elements,
           .contact_mass = foam.contact_mass,
+          .contact_time = foam.contact_time,
+          .longest_window = foam.longest_window,
           .stable_step = foam.stable_step,
           .preferred_step = foam.preferred_step,
           .memory_bytes = foam.memory_bytes,
@@ -76,8 +78,15 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   }
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end,
-                          {out.impactor->stable_step, out.impactor->preferred_step, out.impactor->contact_mass},
-                          {out.structure->stable_step, out.structure->preferred_step, out.structure->contact_mass});
+                          {.stable = out.impactor->stable_step,
+                           .preferred = out.impactor->preferred_step,
+                           .contact_mass = out.impactor->contact_mass,
+                           .contact_time = out.impactor->contact_time,
+                           .longest_window = out.impactor->longest_window},
+                          {.stable = out.structure->stable_step,
+                           .preferred = out.structure->preferred_step,
+                           .contact_mass = out.structure->contact_mass,
+                           .free_mass = out.structure->free_mass});
   }
   return out;
 }

@@ -21,7 +21,8 @@ struct ImpactorPreview {
   std::uint64_t elements = 0;            ///< of a foam projectile
   double smallest = 0.0, largest = 0.0;  ///< m, diameters of particles
   double contact_mass = 0.0;             ///< kg, the heaviest that touches at one point
-  double contact_time = 0.0;             ///< s, between two of the smallest particles
+  double contact_time = 0.0;             ///< s, between two of the smallest particles; 0: it has no contacts
+  double longest_window = 0.0;           ///< s; 0: no limit of its own
   double stable_step = 0.0;
   double preferred_step = 0.0;
   std::uint64_t memory_bytes = 0;

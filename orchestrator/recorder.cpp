@@ -66,10 +66,7 @@ void Recorder::forces(const wire::Forces& forces) {
     row.handed_over = sums_.handed_over();
     row.transmitted = load_.transmitted();
   }
-  const bool last = window == plan_.windows;
-  if (plan_.profile_every != 0 && window != 0 && (window % plan_.profile_every == 0 || last)) {
-    write_profile(window);
-  }
+  if (window != 0 && participant::falls_due(plan_.profile_every, window, plan_.windows)) write_profile(window);
 }
 
 // (4.3), averaged over the interval since the last profile.

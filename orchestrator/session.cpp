@@ -110,12 +110,16 @@ StepPlan Session::prepare() {
   *for_impactor.mutable_impactor()->mutable_impactor() = task_.scene.impactor();
   *for_impactor.mutable_impactor()->mutable_guards() = task_.scene.guards();
   *for_impactor.mutable_impactor()->mutable_surface() = hub_.structure().ready.surface();
+  for_impactor.mutable_impactor()->set_free_mass(hub_.structure().ready.free_mass());
   make_ready(hub_.impactor(), for_impactor);
 
   const auto steps = [](const Peer& peer) {
     return SideSteps{.stable = peer.ready.stable_step(),
                      .preferred = peer.ready.preferred_step(),
-                     .contact_mass = peer.ready.contact_mass()};
+                     .contact_mass = peer.ready.contact_mass(),
+                     .contact_time = peer.ready.contact_time(),
+                     .longest_window = peer.ready.longest_window(),
+                     .free_mass = peer.ready.free_mass()};
   };
   return plan_steps(task_.scene, task_.end, steps(hub_.impactor()), steps(hub_.structure()));
 }

@@ -15,11 +15,9 @@ constexpr double whole_tolerance = 1e-6;
 // What a quotient of two doubles may lie off the integer that it is.
 constexpr double round_off = 1e-9;
 
-constexpr double steps_per_contact = 10.0;  // an impactor's preferred step is t_e/10 (physics: dt = t_e/10)
-
-// A foam's nodes swing on their contacts within a few of its steps, and all at once where the block's face arrives:
-// with four or more steps in a window the exchange takes 1 to 2% of the energy, with two 0.01% (docs/theory/foam.md).
-constexpr double foam_steps_per_window = 2.0;
+// Equal steps must stay equal where they are needed, and a dent makes the structure's stable step shorter: this part of
+// the undeformed one is taken (docs/decisions/0006-lock-step.md).
+constexpr double equal_step_reserve = 0.5;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& text) { throw InputError(where + ": " + text); }
 
@@ -50,15 +48,15 @@ double following_step(const scene::Step& structure_step, double end, SideSteps s
 
 double impactor_step(const scene::Step& step, SideSteps side) {
   double seconds = side.preferred;
-  if (step.value_case() == scene::Step::kRatio && side.preferred >= participant::no_step_limit) {
+  if (step.value_case() == scene::Step::kRatio && !(side.contact_time > 0.0)) {
     refuse("steps.impactor",
-           "a bare number is a contact time over the step, but this impactor has no contacts. Write "
-           "seconds with a unit, or auto.");
+           "a bare number is a contact time over the step, but this impactor has no contacts, or does not say how long "
+           "they last. Write seconds with a unit, or auto.");
   }
   if (step.value_case() == scene::Step::kSeconds) {
     seconds = step.seconds();
   } else if (step.value_case() == scene::Step::kRatio) {
-    seconds = steps_per_contact * side.preferred / step.ratio();
+    seconds = side.contact_time / step.ratio();
   }
   require_stable("steps.impactor", seconds, side.stable);
   return seconds;
@@ -80,26 +78,36 @@ std::uint32_t steps_per_window(double value) {
   return static_cast<std::uint32_t>(count("steps", "steps per window", value, most_steps_per_window));
 }
 
-// A window is no longer than a contact, because the surface moves linearly in it; that also bounds the window of a
-// target that has no stable step of its own.
-void choose_structure_steps(StepPlan& plan, double preferred, double contact_time) {
-  if (std::min(preferred, contact_time) >= participant::no_step_limit) return;  // one to one
-  const double ratio = std::min(preferred, contact_time) / plan.impactor_step;
+// The surface moves linearly in a window, so it is no longer than a contact, nor than either side allows; that also
+// bounds the window of a target that has no stable step of its own.
+double longest_window(SideSteps impactor, SideSteps structure) {
+  double longest = participant::no_step_limit;
+  for (const double limit : {impactor.contact_time, impactor.longest_window, structure.longest_window}) {
+    if (limit > 0.0) longest = std::min(longest, limit);
+  }
+  return longest;
+}
+
+void choose_structure_steps(StepPlan& plan, double preferred, double longest) {
+  if (std::min(preferred, longest) >= participant::no_step_limit) return;  // one to one
+  const double ratio = std::min(preferred, longest) / plan.impactor_step;
   plan.impactor_steps = steps_per_window(std::max(1.0, std::floor(ratio * (1.0 + round_off))));
   plan.structure_steps = steps_per_window(std::max(1.0, std::ceil(plan.impactor_steps / ratio * (1.0 - round_off))));
 }
 
 // Where what touches outweighs the surface's nodes, the surface moves as much as the particle does during a contact,
 // and an impulse that acts a part of a window late makes energy of that: no delay at all, then
-// (docs/decisions/0006-lock-step.md).
+// (docs/decisions/0006-lock-step.md). A free rigid body answers as a whole, at once: the same.
 bool needs_equal_steps(SideSteps impactor, SideSteps structure) {
-  return structure.contact_mass > 0.0 && impactor.contact_mass > structure.contact_mass;
+  return structure.free_mass > 0.0 ||
+         (structure.contact_mass > 0.0 && impactor.contact_mass > structure.contact_mass);
 }
 
 // Both steps `auto` where the impactor's is not given: then the shorter one is taken by both.
 void choose_equal_steps(StepPlan& plan, const scene::Step& impactor, double preferred) {
+  if (preferred >= participant::no_step_limit) return;  // whatever the impactor's step
   if (impactor.value_case() != scene::Step::kSeconds && impactor.value_case() != scene::Step::kRatio) {
-    plan.impactor_step = std::min(plan.impactor_step, preferred);
+    plan.impactor_step = std::min(plan.impactor_step, equal_step_reserve * preferred);
   }
   plan.structure_steps = steps_per_window(std::max(1.0, std::ceil(plan.impactor_step / preferred * (1.0 - round_off))));
 }
@@ -130,8 +138,41 @@ void require_short_window(double window, double contact_time) {
   }
 }
 
-std::uint64_t every(std::uint64_t windows, std::uint64_t times) {
-  return times == 0 ? 0 : std::max<std::uint64_t>(1, (windows + times / 2) / times);
+std::uint64_t count_windows(const StepPlan& plan, double end) {
+  return count("time.end", "windows of " + number(plan.window) + " s",
+               std::max(1.0, std::ceil(end / plan.window * (1.0 - round_off))), most_windows);
+}
+
+// What is recorded falls on the ends of windows: where `auto` chose a long window, it is shortened until there are as
+// many as were asked for.
+void leave_room_for_output(StepPlan& plan, double end, std::uint64_t intervals) {
+  if (plan.structure_fixed || plan.impactor_steps == 1) return;
+  const double most = end / (plan.impactor_step * static_cast<double>(intervals)) * (1.0 + round_off);
+  if (most >= plan.impactor_steps) return;
+  plan.impactor_steps = static_cast<std::uint32_t>(std::max(1.0, std::floor(most)));
+}
+
+/// Windows between two of `times` events that are spread over all of them, the first at the start and the last at the
+/// end; at least one. Notes where there are too few windows.
+double spacing(StepPlan& plan, const char* key, std::uint64_t times, std::uint64_t intervals) {
+  if (plan.windows < intervals) {
+    plan.warnings.push_back(std::string("output.") + key + ": " + std::to_string(times) +
+                            " were asked for, but the run has only " + std::to_string(plan.windows) +
+                            " windows: there will be one at the end of each. Smaller steps make more.");
+  }
+  return std::max(1.0, static_cast<double>(plan.windows) / static_cast<double>(intervals));
+}
+
+/// Intervals between so many states, the first and the last of a run among them.
+std::uint64_t between(std::uint64_t states) { return std::max<std::uint64_t>(1, states - 1); }
+
+void choose_output(StepPlan& plan, const scene::Output& output) {
+  plan.report_every = spacing(plan, "rows", output.rows(), between(output.rows()));
+  if (output.snapshots() == 1) plan.snapshot_every = static_cast<double>(plan.windows) + 1.0;
+  if (output.snapshots() > 1) {
+    plan.snapshot_every = spacing(plan, "snapshots", output.snapshots(), between(output.snapshots()));
+  }
+  if (output.profiles() > 0) plan.profile_every = spacing(plan, "profiles", output.profiles(), output.profiles());
 }
 
 }  // namespace
@@ -164,23 +205,21 @@ StepPlan plan_steps(const scene::Scene& scene, double end, SideSteps impactor, S
   } else if (needs_equal_steps(impactor, structure)) {
     choose_equal_steps(plan, scene.steps().impactor(), structure.preferred);
   } else {
-    const bool foam = scene.impactor().type() == scene::Impactor::TYPE_FOAM;
-    const double longest = foam ? foam_steps_per_window * plan.impactor_step : steps_per_contact * impactor.preferred;
-    choose_structure_steps(plan, structure.preferred, longest);
+    choose_structure_steps(plan, structure.preferred, longest_window(impactor, structure));
   }
+  const scene::Output& output = scene.output();
+  leave_room_for_output(plan, end,
+                        std::max({between(output.rows()), between(std::max(1U, output.snapshots())),
+                                  std::uint64_t{std::max(1U, output.profiles())}}));
   plan.window = plan.impactor_steps * plan.impactor_step;
-  if (plan.structure_fixed) require_short_window(plan.window, steps_per_contact * impactor.preferred);
+  if (plan.structure_fixed && impactor.contact_time > 0.0) require_short_window(plan.window, impactor.contact_time);
   plan.structure_step = plan.window / plan.structure_steps;
   if (plan.structure_fixed && plan.impactor_steps > 1 && plan.window > end * (1.0 + round_off)) {
     refuse("steps.structure", "a step of " + number(plan.window) + " s is longer than the whole run of " + number(end) +
                                   " s. Write a smaller one, or auto.");
   }
-  plan.windows = count("time.end", "windows of " + number(plan.window) + " s",
-                       std::max(1.0, std::ceil(end / plan.window * (1.0 - round_off))), most_windows);
-  plan.report_every = every(plan.windows, scene.output().rows());
-  const std::uint32_t snapshots = scene.output().snapshots();  // the first of them at the start
-  plan.snapshot_every = snapshots == 1 ? plan.windows + 1 : every(plan.windows, snapshots == 0 ? 0 : snapshots - 1);
-  plan.profile_every = every(plan.windows, scene.output().profiles());
+  plan.windows = count_windows(plan, end);
+  choose_output(plan, output);
   return plan;
 }
 

@@ -3,17 +3,21 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "grainstep/scene.pb.h"
 #include "grainstep/wire.pb.h"
 
 namespace grainstep::orchestrator {
 
-/// What a side says about its steps (Ready, or a preview).
+/// What a side says about its steps (wire.proto, Ready), or would say.
 struct SideSteps {
   double stable = 0.0;        ///< s
   double preferred = 0.0;     ///< s
-  double contact_mass = 0.0;  ///< kg, of Ready
+  double contact_mass = 0.0;    ///< kg
+  double contact_time = 0.0;    ///< s, impactor; 0: no contacts
+  double longest_window = 0.0;  ///< s; 0: no limit
+  double free_mass = 0.0;       ///< kg, structure; 0: deformable or held
 };
 
 struct StepPlan {
@@ -24,9 +28,10 @@ struct StepPlan {
   bool structure_fixed = false;       ///< the scene fixed the structure's step
   double window = 0.0;                ///< s
   std::uint64_t windows = 0;
-  std::uint64_t report_every = 1;    ///< windows
-  std::uint64_t snapshot_every = 0;  ///< windows; 0: none
-  std::uint64_t profile_every = 0;   ///< windows; 0: none
+  double report_every = 1.0;    ///< windows, on the mean (Start)
+  double snapshot_every = 0.0;  ///< windows; 0: none
+  double profile_every = 0.0;   ///< windows; 0: none
+  std::vector<std::string> warnings;  ///< what of the scene's wishes cannot be had
 
   [[nodiscard]] bool equal_steps() const { return impactor_steps == 1 && structure_steps == 1; }
   [[nodiscard]] wire::Start start() const;

@@ -216,9 +216,9 @@ class Participant:
         self.hear("nothing but stop")
 
     def extra(self, start, window, model, at):
-        if window == start.windows or (start.report_every and window % start.report_every == 0):
+        if falls_due(start.report_every, window, start.windows):
             self.talk.send(report=model.report(self.wire, window, at, self.timing()))
-        if start.snapshot_every and window % start.snapshot_every == 0:
+        if falls_due(start.snapshot_every, window, start.windows):
             field = self.wire.Field(name="velocity", unit="m/s", components=2, value=[0.0, at["v"], 0.0, at["v"]])
             self.talk.send(snapshot=self.wire.Snapshot(
                 window=window, position=[model.left, at["x"], model.right, at["x"]], point_field=[field]))

@@ -2,6 +2,7 @@
 /// for participants and orchestrator.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -12,11 +13,22 @@ namespace grainstep::participant {
 /// What a side gives as its stable and preferred step that has no limit of its own.
 inline constexpr double no_step_limit = std::numeric_limits<double>::max();
 
-/// Reports: every `report_every` windows and after the last one. Snapshots: every `snapshot_every` windows, none if 0.
+/// True when n/every has passed an integer between window n - 1 and n = `window`: `every` windows apart on the mean,
+/// the last of them included. Never for 0.
+[[nodiscard]] inline bool falls_due(double every, std::uint64_t window, std::uint64_t windows) {
+  if (!(every > 0.0)) return false;
+  if (window == 0 || window == windows) return true;
+  const auto n = static_cast<double>(window);
+  return std::floor(n / every) > std::floor((n - 1.0) / every);
+}
+
+/// Reports: at window 0, every `report_every` windows and at the last one. Snapshots likewise, none if `snapshot_every`
+/// is 0, and only that of the last window if it is more than there are.
 [[nodiscard]] inline Due due_at(const wire::Start& start, std::uint64_t window) {
-  const auto falls = [window](std::uint64_t every) { return every != 0 && window % every == 0; };
-  return {.report = falls(start.report_every()) || window == start.windows(),
-          .snapshot = falls(start.snapshot_every())};
+  const auto windows = start.windows();
+  const bool only_last = start.snapshot_every() > static_cast<double>(windows);
+  return {.report = falls_due(start.report_every(), window, windows) || window == windows,
+          .snapshot = only_last ? window == windows : falls_due(start.snapshot_every(), window, windows)};
 }
 
 }  // namespace grainstep::participant

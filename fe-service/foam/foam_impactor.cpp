@@ -37,6 +37,8 @@ wire::Ready FoamImpactor::prepare(const wire::Setup& setup) {
   ready.set_scene_hash(setup.scene_hash());
   ready.set_stable_step(stable_step_in_touch(*model_, *body_, stable_step_));
   ready.set_preferred_step(preferred_foam_step(*model_, ready.stable_step()));
+  ready.set_contact_time(kFoamStepsPerContact * ready.preferred_step());
+  ready.set_longest_window(kFoamStepsPerWindow * ready.preferred_step());
   ready.set_size(body_->mesh().triangles());
   ready.set_mass(body_->mass());
   ready.set_contact_mass(heaviest_of_face(*body_));

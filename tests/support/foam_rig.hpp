@@ -109,7 +109,7 @@ class FoamRig final : public participant::ImpactorLink {
     return std::nan("");
   }
 
-  std::uint64_t report_every = 100;
+  double report_every = 100;
   double window = 0.0;  ///< s
   wire::Ready ready;
   std::vector<double> pressed, along;  ///< N s on the face in every window, against x2 and along x1

@@ -119,8 +119,8 @@ inline wire::Start start_of(double dt, std::uint64_t windows, std::uint32_t step
   start.set_windows(windows);
   start.set_impactor_steps(steps);
   start.set_structure_steps(1);
-  start.set_report_every(windows);
-  start.set_snapshot_every(windows);
+  start.set_report_every(static_cast<double>(windows));
+  start.set_snapshot_every(static_cast<double>(windows));
   return start;
 }
 

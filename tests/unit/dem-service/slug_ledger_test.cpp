@@ -38,7 +38,7 @@ ScriptedLink impact(const Run& what) {
   const auto windows =
       static_cast<std::uint64_t>(what.slug_times * model.height / model.speed / dt / what.steps_per_window);
   wire::Start start = start_of(dt, windows, what.steps_per_window);
-  start.set_report_every(windows / 10);
+  start.set_report_every(static_cast<double>(windows / 10));
   return run_slug(setup, start, what.motion);
 }
 

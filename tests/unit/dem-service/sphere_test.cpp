@@ -188,7 +188,7 @@ ScriptedLink impact() {
   const double dt = model.contact_time / 10.0;
   const auto windows = static_cast<std::uint64_t>(0.5 * model.height / model.speed / dt);
   wire::Start start = start_of(dt, windows);
-  start.set_report_every(windows / 10);
+  start.set_report_every(static_cast<double>(windows / 10));
   return run_slug(setup, start, [=](std::uint64_t n, const Vec2& x) {
     const double t = static_cast<double>(n) / static_cast<double>(windows);
     return x + Vec2{{0.0, -t * t * (2e-3 - 0.02 * x[0])}};
