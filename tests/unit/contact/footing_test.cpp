@@ -78,7 +78,7 @@ TEST(Footing, NodesReceiveTheForceAndItsMoment) {
   }
   EXPECT_NEAR(dot(sum, n), push, 1e-14);
   EXPECT_NEAR(dot(sum, t), drag, 1e-14);
-  EXPECT_NEAR(moment, drag * stand.foot.lever, 1e-14);  // at -lever n from the centre, along t: lever n x ... = +
+  EXPECT_NEAR(moment, -drag * stand.foot.lever, 1e-14);  // drag t at the place -lever n from the centre
 }
 
 TEST(Footing, VelocityIsWhatTheForcesWorkOn) {
