@@ -91,6 +91,12 @@ Json summary(const SummaryInput& in) {
 
 namespace {
 
+// Over the half span: what a stiff structure deflects by does not fill four decimals.
+std::string deflection_text(const Json& value) {
+  const bool small = value.is_number() && value != 0.0 && std::abs(value.get<double>()) < 1e-3;
+  return text_of(value, small ? "%.3g" : "%.4f");
+}
+
 // In t_bar, or in ms where the structure has none.
 std::string moment(const Json& s, const char* key) {
   const Json& t_bar = s.at(std::string(key) + "_time");
@@ -107,11 +113,11 @@ std::string digest(const Json& s) {
     out += ": " + reason;
   }
   out += "\nimpulse number I_o   " + text_of(s.at("impulse_number"), "%.3g");
-  out += "\npeak deflection      " + text_of(s.at("peak_deflection"), "%.4f") + " w/L at " +
+  out += "\npeak deflection      " + deflection_text(s.at("peak_deflection")) + " w/L at " +
          moment(s, "peak_deflection") + " (run to " + moment(s, "final") + ")";
   if (s.value("final_deflection", Json()).is_number()) {
-    out += "\nfinal deflection     " + text_of(s.at("final_deflection"), "%.4f") + " w/L, swings by +-" +
-           text_of(s.at("final_deflection_spread"), "%.4f");
+    out += "\nfinal deflection     " + deflection_text(s.at("final_deflection")) + " w/L, swings by +-" +
+           deflection_text(s.at("final_deflection_spread"));
   }
   if (s.at("peak_core_compression").is_number()) {
     out += "\ncore compression     " + text_of(s.at("peak_core_compression"), "%.3f") + " of its thickness";

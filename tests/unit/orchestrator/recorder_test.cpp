@@ -186,6 +186,15 @@ TEST_F(RecorderTest, ThePermanentDeflectionIsInTheSummary) {
   EXPECT_THAT(digest(s), HasSubstr("final deflection     -0.20"));
 }
 
+TEST_F(RecorderTest, ASmallDeflectionIsNotPrintedAsNone) {
+  peak_ = -8.9e-6;
+  for (std::uint64_t n = 0; n <= 10; ++n) window(n);
+  EXPECT_THAT(digest(summary_so_far()), HasSubstr("peak deflection      -8.9e-06 w/L"));
+  peak_ = 0.0;
+  for (std::uint64_t n = 11; n <= 20; ++n) window(n);
+  EXPECT_THAT(digest(summary_so_far()), HasSubstr("peak deflection      0.0000 w/L"));
+}
+
 TEST_F(RecorderTest, UnderLoadThereIsNoPermanentDeflection) {
   plan_.report_every = 1;
   start_over();
