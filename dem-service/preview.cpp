@@ -46,6 +46,7 @@ ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetr
   ImpactorPreview preview;
   preview.particles = model.particles;
   preview.particle_mass = model.mass;
+  preview.mass = model.mass_of_all();
   preview.smallest = model.smallest();
   preview.largest = model.largest();
   preview.contact_mass = model.whole() * model.mass_of(model.largest());

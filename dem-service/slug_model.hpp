@@ -55,6 +55,8 @@ struct SlugModel {
   [[nodiscard]] double scale_of_sizes() const;
   /// What is modelled of the whole: sums over a slice's particles times this are those of the full circle.
   [[nodiscard]] double whole() const { return spheres() ? 2.0 * std::numbers::pi / slice : 1.0; }
+  /// kg, of all particles of what is modelled.
+  [[nodiscard]] double mass_of_all() const { return whole() * mass * static_cast<double>(particles); }
   /// Rotational inertia over m R^2.
   [[nodiscard]] double gyration() const { return spheres() ? 0.4 : 0.5; }
 };

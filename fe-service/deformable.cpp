@@ -171,8 +171,9 @@ void Deformable::internal_forces() {
 
 void Deformable::track_peaks(std::uint32_t substep) {
   const double time = window_length_ * (static_cast<double>(window_) + (substep + 1.0) / substeps_);
+  // Largest in size, with its sign: suction pulls the other way.
   const auto track = [time](double now, double& peak, double& peak_time) {
-    if (now <= peak) return;
+    if (std::abs(now) <= std::abs(peak)) return;
     peak = now;
     peak_time = time;
   };

@@ -85,8 +85,6 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
   check_measure(structure, measure);
   if (structure.layers().empty()) throw InputError("structure.layers: none given; at least one is needed");
   StructurePreview found;
-  found.yield_strength = structure.layers(0).yield_strength();
-  found.density = structure.layers(0).density();
   for (const scene::Layer& layer : structure.layers()) found.areal_mass += layer.density() * layer.thickness();
   if (structure.type() == scene::Structure::TYPE_RIGID) {
     wire::Ready ready;

@@ -28,7 +28,7 @@ void print_groups(const scene::Groups& g) {
   std::printf("areal mass ratio m_bar   %s\n", number(g.areal_mass_ratio).c_str());
   std::printf("loading time ratio tau   %s\n", number(g.loading_time_ratio).c_str());
   std::printf("width ratio a/L          %s\n", number(g.width_ratio).c_str());
-  std::printf("end                      %.4g s, t_bar %.4g, t_hat %s\n", g.end, g.end / g.reference_time,
+  std::printf("end                      %.4g s, t_bar %s, t_hat %s\n", g.end, number(g.end / g.reference_time).c_str(),
               number(g.end / g.slug_time).c_str());
 }
 

@@ -8,6 +8,7 @@
 #include "orchestrator/background_observer.hpp"
 #include "orchestrator/build_info.hpp"
 #include "orchestrator/interrupted.hpp"
+#include "orchestrator/participants.hpp"
 #include "orchestrator/recorder.hpp"
 #include "orchestrator/session.hpp"
 #include "orchestrator/summary.hpp"
@@ -44,9 +45,12 @@ class Run {
         .dataset = "/scene/end", .meaning = {"s", "when the run is to end"}, .values = {p.groups.end}, .indices = {}});
     session_.introduce();
     plan_ = session_.prepare();
-    progress_.emplace(stdout, how_.progress, plan_->windows, plan_->window / p.groups.reference_time);
+    if (!p.plan) print_warnings(*plan_);  // an external side has told its steps only now
+    const double mass = hub_.impactor().ready.mass();
+    if (has_particles(p.scene) && mass > 0.0) groups_ = scene::groups(p.scene, mass);
+    progress_.emplace(stdout, how_.progress, Progress::Scale{plan_->windows, plan_->window, groups_.reference_time});
     recorder_.emplace(Recorder::Context{.scene = p.scene,
-                                        .groups = p.groups,
+                                        .groups = groups_,
                                         .plan = *plan_,
                                         .surface = hub_.structure().ready.surface(),
                                         .masses = {hub_.impactor().ready.mass(), hub_.structure().ready.mass()}},
@@ -88,7 +92,7 @@ class Run {
                     .reason = ending.reason,
                     .exit_code = static_cast<int>(ending.code),
                     .scene = how_.preparation.scene,
-                    .groups = how_.preparation.groups,
+                    .groups = groups_,
                     .plan = plan_,
                     .findings = recorder_ ? recorder_->findings() : Findings{},
                     .impactor = hub_.impactor().ready,
@@ -149,6 +153,7 @@ class Run {
   Session session_;
   transport::Clock::time_point started_ = transport::Clock::now();
   double processor_at_start_ = processor_seconds();
+  scene::Groups groups_ = how_.preparation.groups;  // of an external impactor's own mass, once it is known
   std::optional<StepPlan> plan_;
   std::optional<results::ResultsFile> file_;
   std::optional<Progress> progress_;

@@ -23,6 +23,7 @@ ImpactorPreview without_mass() {
 ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
   const dem::ImpactorPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
   return {.particles = slug.particles,
+          .mass = slug.mass,
           .smallest = slug.smallest,
           .largest = slug.largest,
           .contact_mass = slug.contact_mass,
@@ -82,7 +83,6 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   for (scene::Finding& finding : scene::check_rules(out.scene)) {
     if (finding.severity == scene::Severity::warning) out.warnings.push_back(std::move(finding));
   }
-  out.groups = scene::groups(out.scene);
   const scene::Scene& scene = out.scene;
   const bool mirror = scene::has_mirror(scene);
   if (!is_external(wire::STRUCTURE, scene, options)) {
@@ -92,6 +92,8 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
     out.impactor = preview_impactor(scene, mirror);
   }
   point_contact_is_meant(out, out.warnings);
+  const bool weighed = out.impactor && out.impactor->mass > 0.0;
+  out.groups = scene::groups(scene, weighed ? std::optional(out.impactor->mass) : std::nullopt);
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end,
                           {.stable = out.impactor->stable_step,
@@ -110,6 +112,13 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
 void print_warnings(const Preparation& preparation, const std::string& of) {
   for (const scene::Finding& warning : preparation.warnings) {
     std::fprintf(stderr, "grainstep: warning: %s%s: %s\n", of.c_str(), warning.path.c_str(), warning.text.c_str());
+  }
+  if (preparation.plan) print_warnings(*preparation.plan, of);
+}
+
+void print_warnings(const StepPlan& plan, const std::string& of) {
+  for (const std::string& warning : plan.warnings) {
+    std::fprintf(stderr, "grainstep: warning: %s%s\n", of.c_str(), warning.c_str());
   }
 }
 

@@ -42,7 +42,7 @@ Json read_progress(const std::filesystem::path& path) {
     const double time = last(file, "/series/time");
     return {{"status", "running"},
             {"time", time},
-            {"final_time", last(file, "/series/t_bar")},
+            {"final_time", file.has("/series/t_bar") ? Json(last(file, "/series/t_bar")) : Json(nullptr)},
             {"progress", end > 0.0 ? time / end : 0.0},
             {"energy_drift", last(file, "/ledger/energy_drift")},
             {"momentum_error", last(file, "/ledger/momentum_error")},

@@ -1,6 +1,7 @@
 #include "orchestrator/show_command.hpp"
 
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -23,9 +24,13 @@ std::string digest_of(const Json& facts, const std::filesystem::path& path) {
 }
 
 void print_progress(const Json& progress) {
-  std::printf("running: %.1f%%, t_bar %.3f, energy drift %.2e, momentum error %.1e\n",
-              100.0 * progress["progress"].get<double>(), progress["final_time"].get<double>(),
-              progress["energy_drift"].get<double>(), progress["momentum_error"].get<double>());
+  const Json& t_bar = progress["final_time"];
+  const std::string moment =
+      t_bar.is_number() ? moment_text(t_bar.get<double>(), 1.0)
+                        : moment_text(progress["time"].get<double>(), std::numeric_limits<double>::quiet_NaN());
+  std::printf("running: %.1f%%, %s, energy drift %.2e, momentum error %.1e\n",
+              100.0 * progress["progress"].get<double>(), moment.c_str(), progress["energy_drift"].get<double>(),
+              progress["momentum_error"].get<double>());
   std::printf("last written %s ago; a run that is alive writes about every second once it steps\n",
               duration_text(progress["seconds_since_written"].get<double>()).c_str());
 }

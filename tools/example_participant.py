@@ -148,7 +148,7 @@ class MassOnSpring:
         self.v = after
         self.x += self.step * after
         self.window += 1
-        if -self.x > self.peak:
+        if abs(self.x) > abs(self.peak):
             self.peak, self.peak_time = -self.x, self.window * self.step
         return at
 

@@ -42,7 +42,7 @@ void slug_is_above_the_structure(const Scene& scene, Findings& findings) {
 void slug_arrives(const Scene& scene, Findings& findings) {
   if (scene.structure().initial_velocity_size() > 0) return;
   const Groups g = groups(scene);
-  if (g.arrival < g.end) return;
+  if (!(g.arrival >= g.end)) return;  // nor where the end is not known
   findings.push_back({Severity::error, "impactor.slug.stand_off",
                       "found " + metres(scene.impactor().slug().stand_off()) + ": the slug would arrive after " +
                           rounded_text(g.arrival) + " s, but the run ends at " + rounded_text(g.end) +

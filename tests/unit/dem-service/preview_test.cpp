@@ -24,6 +24,7 @@ TEST(Preview, ReferenceSlugOfThePaper) {
   const ImpactorPreview found = preview_of(paper);
   EXPECT_EQ(found.particles, 190986U);  // 0.2 a H / (pi D^2/4)
   EXPECT_NEAR(found.particle_mass, 8.482e-8, 5e-12);
+  EXPECT_DOUBLE_EQ(found.mass, 190986.0 * found.particle_mass);
   EXPECT_NEAR(found.contact_time, 2.410e-7, 5e-11);
   EXPECT_NEAR(found.preferred_step, 2.41e-8, 5e-11);
   EXPECT_GT(found.stable_step, found.preferred_step);

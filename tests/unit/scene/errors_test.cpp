@@ -66,6 +66,13 @@ TEST(LoadErrors, UnknownWord) {
   EXPECT_THAT(load_error(minimal_scene, {"structure.type=unset"}), HasSubstr("is not one of beam, rigid, external"));
 }
 
+TEST(LoadErrors, ABareEndNeedsALayerThatYields) {
+  EXPECT_THAT(
+      load_error(minimal_scene, {"structure.layers.0.material=elastic", "steps.structure=10 ns"}),
+      HasSubstr("x.yaml:1: time.end: found 1.5, and a bare number counts L sqrt(rho_m/sigma_Y), but no layer of "
+                "this structure yields: there is no sigma_Y. Write seconds, with their unit"));
+}
+
 TEST(LoadErrors, AScalarThatFitsNoAlternative) {
   EXPECT_EQ(
       load_error(minimal_scene, {"steps.impactor=autp"}),
