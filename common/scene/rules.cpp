@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/bulk_viscosity.hpp"
 #include "scene/core.hpp"
 #include "scene/encounter.hpp"
 #include "scene/foam_rules.hpp"
@@ -236,6 +237,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
   covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},
                 "impactor.pressure.patch", findings);
   motion_is_read(scene.structure(), findings);
+  check_bulk_viscosity(scene, findings);
   symmetry_fits(scene, findings);
   velocities_apply(scene.structure(), findings);
   for (int i = 0; i < scene.structure().layers_size(); ++i) core_is_described(scene, i, findings);
