@@ -65,7 +65,7 @@ void Participants::open(Side& side) {
   transport::ZmqOptions zmq;
   zmq.peer = name_of(side.role);
   const std::string endpoint = endpoint_of(side);
-  if (endpoint.starts_with("tcp")) {
+  if (transport::is_tcp(endpoint)) {
     zmq.curve_dir = options_.curve_dir;
     zmq.allow_plain_tcp = options_.allow_plain_tcp;
   }
@@ -75,7 +75,7 @@ void Participants::open(Side& side) {
 void Participants::start(const Side& side, Supervision& supervision, const results::RunDirectory& directory) const {
   const std::string& endpoint = side.channel->endpoint();
   if (side.external) {
-    const bool keys = endpoint.starts_with("tcp") && !options_.curve_dir.empty();
+    const bool keys = transport::is_tcp(endpoint) && !options_.curve_dir.empty();
     std::string command;
     for (const std::string& word : side.command) command += word + " ";
     std::printf("waiting %.0f s for the %s; start it with:\n  %s--connect %s%s%s\n", options_.deadlines.connect_s,

@@ -6,6 +6,7 @@
 #include "orchestrator/participants.hpp"
 #include "participant/schedule.hpp"
 #include "scene/load.hpp"
+#include "transport/zmq_options.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -49,6 +50,31 @@ ImpactorPreview preview_impactor(const scene::Scene& scene, bool mirror) {
   return scene.impactor().type() == scene::Impactor::TYPE_FOAM ? of_foam(scene, mirror) : without_mass();
 }
 
+/// An option that nobody would read is a slip, and about encryption a dangerous one.
+void check_connection(const scene::Scene& scene, const RunOptions& options) {
+  if (!options.listen.empty()) {
+    transport::ZmqOptions zmq;
+    zmq.curve_dir = options.curve_dir;
+    zmq.allow_plain_tcp = options.allow_plain_tcp;
+    transport::check_endpoint(options.listen, transport::Use::listen, zmq);
+    if (!transport::is_tcp(options.listen)) {
+      throw InputError("--listen " + options.listen +
+                       ": expected tcp://HOST:PORT; without --listen, participants connect over a local socket");
+    }
+    if (!is_external(wire::IMPACTOR, scene, options) && !is_external(wire::STRUCTURE, scene, options)) {
+      throw InputError("--listen " + options.listen +
+                       ": nobody would connect, both participants are started here; add --external impactor or "
+                       "--external structure");
+    }
+    if (!options.curve_dir.empty()) {
+      static_cast<void>(transport::load_keys(options.curve_dir, transport::Side::orchestrator));
+    }
+  } else if (!options.curve_dir.empty()) {
+    throw InputError("--curve-dir " + options.curve_dir.string() +
+                     ": nothing to encrypt, participants connect over a local socket; add --listen tcp://HOST:PORT");
+  }
+}
+
 }  // namespace
 
 Preparation prepare(const RunOptions& options) {
@@ -62,6 +88,7 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
     throw InputError("--ranks " + std::to_string(options.ranks) +
                      ": an impactor without particles is one process; leave --ranks out");
   }
+  check_connection(out.scene, options);
   out.hash = scene::scene_hash(out.scene);
   out.yaml = scene::to_yaml(out.scene);
   for (scene::Finding& finding : scene::check_rules(out.scene)) {
