@@ -2,11 +2,12 @@
 
 #include <cstdio>
 
+#include "base/number_text.hpp"
 #include "dem-service/preview.hpp"
+#include "dem-service/slug_model.hpp"
 #include "orchestrator/participants.hpp"
 #include "participant/schedule.hpp"
 #include "scene/load.hpp"
-#include "transport/zmq_options.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -50,29 +51,17 @@ ImpactorPreview preview_impactor(const scene::Scene& scene, bool mirror) {
   return scene.impactor().type() == scene::Impactor::TYPE_FOAM ? of_foam(scene, mirror) : without_mass();
 }
 
-/// An option that nobody would read is a slip, and about encryption a dangerous one.
-void check_connection(const scene::Scene& scene, const RunOptions& options) {
-  if (!options.listen.empty()) {
-    transport::ZmqOptions zmq;
-    zmq.curve_dir = options.curve_dir;
-    zmq.allow_plain_tcp = options.allow_plain_tcp;
-    transport::check_endpoint(options.listen, transport::Use::listen, zmq);
-    if (!transport::is_tcp(options.listen)) {
-      throw InputError("--listen " + options.listen +
-                       ": expected tcp://HOST:PORT; without --listen, participants connect over a local socket");
-    }
-    if (!is_external(wire::IMPACTOR, scene, options) && !is_external(wire::STRUCTURE, scene, options)) {
-      throw InputError("--listen " + options.listen +
-                       ": nobody would connect, both participants are started here; add --external impactor or "
-                       "--external structure");
-    }
-    if (!options.curve_dir.empty()) {
-      static_cast<void>(transport::load_keys(options.curve_dir, transport::Side::orchestrator));
-    }
-  } else if (!options.curve_dir.empty()) {
-    throw InputError("--curve-dir " + options.curve_dir.string() +
-                     ": nothing to encrypt, participants connect over a local socket; add --listen tcp://HOST:PORT");
-  }
+/// What a dent under one particle depends on, if its force acts at a point (docs/theory/contact.md).
+void point_contact_is_meant(const Preparation& p, std::vector<scene::Finding>& warnings) {
+  const scene::SurfaceContact& contact = p.scene.impactor().slug().surface_contact();
+  if (contact.spreading() != scene::SurfaceContact::SPREADING_POINT || !p.impactor || !p.structure) return;
+  const double elements = p.impactor->largest / p.structure->element_size;
+  if (!(p.structure->element_size > 0.0) || !(elements > dem::widest_point_contact)) return;
+  warnings.push_back({scene::Severity::warning, "impactor.slug.surface_contact.spreading",
+                      "point: a particle is as wide as " + rounded_text(elements) +
+                          " elements of the surface, and the dent under it will follow the mesh, with its plastic work "
+                          "and the rebound. Write chord (auto takes it from " +
+                          rounded_text(dem::widest_point_contact) + " on), or a coarser mesh"});
 }
 
 }  // namespace
@@ -103,6 +92,7 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   if (!is_external(wire::IMPACTOR, scene, options)) {
     out.impactor = preview_impactor(scene, mirror);
   }
+  point_contact_is_meant(out, out.warnings);
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end,
                           {.stable = out.impactor->stable_step,
