@@ -46,6 +46,13 @@ void check_slice(const scene::Slug& slug, double largest, std::ostringstream& te
   } else if (slug.angle() != 0.0 || slug.offset() != 0.0 || slug.confined()) {
     text << "impactor.slug: angle, offset and confined are for discs in the plane; a slug of revolution comes along "
             "its axis and spreads freely: leave them out";
+  } else if (2.0 * slug.half_width() * std::sin(0.5 * most_slice) < 3.0 * largest) {
+    text << "impactor.slug.half_width: found " << slug.half_width() << " m, too few particles of " << largest
+         << " m across: a slug of spheres is computed as a slice that is three of them wide at its rim, so it needs at "
+            "least "
+         << 1.5 * largest / std::sin(0.5 * most_slice)
+         << " m, whatever the slice_angle. Take a wider slug or smaller particles; a single one can be computed as a "
+            "cylinder, with symmetry: plane_strain";
   } else if (2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle()) < 3.0 * largest) {
     text << "impactor.slug.slice_angle: the slice is " << 2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle())
          << " m wide at the slug's rim, expected at least three particle diameters of " << largest

@@ -2,12 +2,12 @@
 
 #include <cstdio>
 
+#include "base/number_text.hpp"
 #include "dem-service/preview.hpp"
 #include "dem-service/slug_model.hpp"
 #include "orchestrator/participants.hpp"
 #include "participant/schedule.hpp"
 #include "scene/load.hpp"
-#include "scene/number_text.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -59,10 +59,10 @@ void point_contact_is_meant(const Preparation& p, std::vector<scene::Finding>& w
   const double elements = p.impactor->largest / p.structure->element_size;
   if (!(p.structure->element_size > 0.0) || !(elements > dem::widest_point_contact)) return;
   warnings.push_back({scene::Severity::warning, "impactor.slug.surface_contact.spreading",
-                      "point: a particle is as wide as " + scene::rounded_text(elements) +
+                      "point: a particle is as wide as " + rounded_text(elements) +
                           " elements of the surface, and the dent under it will follow the mesh, with its plastic work "
                           "and the rebound. Write chord (auto takes it from " +
-                          scene::rounded_text(dem::widest_point_contact) + " on), or a coarser mesh"});
+                          rounded_text(dem::widest_point_contact) + " on), or a coarser mesh"});
 }
 
 }  // namespace
@@ -78,6 +78,7 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
     throw InputError("--ranks " + std::to_string(options.ranks) +
                      ": an impactor without particles is one process; leave --ranks out");
   }
+  check_connection(out.scene, options);
   out.hash = scene::scene_hash(out.scene);
   out.yaml = scene::to_yaml(out.scene);
   for (scene::Finding& finding : scene::check_rules(out.scene)) {

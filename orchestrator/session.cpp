@@ -1,10 +1,10 @@
 #include "orchestrator/session.hpp"
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
@@ -12,12 +12,7 @@ namespace {
 
 using seconds = std::chrono::duration<double>;
 
-std::string number(double value) {  // a step of 1e-7 s is nothing to std::to_string
-  std::ostringstream out;
-  out.precision(4);
-  out << value;
-  return out.str();
-}
+constexpr int digits = 4;  // of times and steps, in messages
 
 Hub::Until at(transport::Deadline deadline) {
   return [deadline] { return deadline; };
@@ -91,12 +86,14 @@ void Session::make_ready(Peer& peer, const wire::Setup& setup) {
   }
   if (!(peer.ready.stable_step() > 0.0) || !(peer.ready.preferred_step() > 0.0) ||
       !std::isfinite(peer.ready.preferred_step())) {
-    throw PeerError(peer.name(), "gives a stable step of " + number(peer.ready.stable_step()) + " s and prefers " +
-                                     number(peer.ready.preferred_step()) + " s; both must be above zero");
+    throw PeerError(peer.name(), "gives a stable step of " + rounded_text(peer.ready.stable_step(), digits) +
+                                     " s and prefers " + rounded_text(peer.ready.preferred_step(), digits) +
+                                     " s; both must be above zero");
   }
   if (peer.ready.preferred_step() > peer.ready.stable_step()) {
-    throw PeerError(peer.name(), "prefers a step of " + number(peer.ready.preferred_step()) +
-                                     " s, but is stable only up to " + number(peer.ready.stable_step()) + " s");
+    throw PeerError(peer.name(), "prefers a step of " + rounded_text(peer.ready.preferred_step(), digits) +
+                                     " s, but is stable only up to " + rounded_text(peer.ready.stable_step(), digits) +
+                                     " s");
   }
 }
 

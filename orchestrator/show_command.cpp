@@ -1,5 +1,6 @@
 #include "orchestrator/show_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 namespace grainstep::orchestrator {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string digest_of(const Json& facts, const std::filesystem::path& path) {
@@ -35,13 +37,46 @@ void print_progress(const Json& progress) {
               duration_text(progress["seconds_since_written"].get<double>()).c_str());
 }
 
+/// Runs below `root`, as far down as studies put them.
+std::vector<std::string> runs_below(const fs::path& root) {
+  constexpr int deepest = 3;
+  std::vector<std::string> found;
+  std::error_code error;
+  for (auto it = fs::recursive_directory_iterator(root, error); !error && it != fs::recursive_directory_iterator();
+       it.increment(error)) {
+    if (!it->is_directory(error)) continue;
+    if (results::RunDirectory(it->path()).holds_a_run()) {
+      found.push_back(it->path().string());
+      it.disable_recursion_pending();
+    } else if (it.depth() >= deepest) {
+      it.disable_recursion_pending();
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Where no run is.
+std::string what_is_there(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return "no such directory";
+  if (!fs::is_directory(path, error)) return "is a file; expected the directory of a run";
+  const auto runs = runs_below(path);
+  const std::string nearest = runs.empty() ? "" : ", e.g. grainstep show '" + runs.front() + "'";
+  const std::string count = std::to_string(runs.size());
+  if (fs::exists(path / "study.json", error) || fs::exists(path / "study.lock", error)) {
+    return "holds a study, not a run: its results are in table.csv, and " + count + " of its runs can be shown" +
+           nearest;
+  }
+  if (!runs.empty()) return "holds no run itself, but " + count + " below it" + nearest;
+  return "holds no run (no summary.json, no results.h5)";
+}
+
 }  // namespace
 
 void show(const ShowOptions& options) {
   const results::RunDirectory directory(options.directory);
-  if (!directory.holds_a_run()) {
-    throw InputError(options.directory.string() + ": holds no run (no summary.json, no results.h5)");
-  }
+  if (!directory.holds_a_run()) throw InputError(options.directory.string() + ": " + what_is_there(options.directory));
   const bool ended = std::filesystem::exists(directory.summary());
   const Json facts = ended ? read_summary(directory.summary()) : read_progress(directory.results());
   if (options.json) {

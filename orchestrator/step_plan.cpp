@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::orchestrator {
@@ -21,12 +21,7 @@ constexpr double equal_step_reserve = 0.75;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& text) { throw InputError(where + ": " + text); }
 
-std::string number(double value) {
-  std::ostringstream out;
-  out.precision(4);
-  out << value;
-  return out.str();
-}
+std::string number(double value) { return rounded_text(value, 4); }
 
 void require_stable(const std::string& where, double step, double stable) {
   if (step > stable * (1.0 + round_off)) {

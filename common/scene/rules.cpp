@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "scene/bulk_viscosity.hpp"
 #include "scene/core.hpp"
 #include "scene/encounter.hpp"
 #include "scene/foam_rules.hpp"
 #include "scene/groups.hpp"
-#include "scene/number_text.hpp"
 #include "scene/read.hpp"
 #include "scene/sizes.hpp"
+#include "scene/usual.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -245,6 +246,7 @@ std::vector<Finding> check_rules(const Scene& scene) {
   steps_meet(scene.steps(), findings);
   step_fits_run(scene.steps().impactor(), "steps.impactor", end, findings);
   step_fits_run(scene.steps().structure(), "steps.structure", end, findings);
+  check_usual(scene, findings);
   return findings;
 }
 

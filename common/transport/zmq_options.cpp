@@ -9,11 +9,12 @@ int milliseconds(double seconds) { return static_cast<int>(seconds * 1e3); }
 
 }  // namespace
 
-void check_endpoint(const std::string& endpoint, const ZmqOptions& options) {
+void check_endpoint(const std::string& endpoint, Use use, const ZmqOptions& options) {
+  check_form(endpoint, use);
   if (options.curve_dir.empty() && !options.allow_plain_tcp && leaves_this_host(endpoint)) {
     throw InputError(endpoint +
-                     ": leaves this host unencrypted; give the directory of the CURVE keys, or allow plain tcp "
-                     "if the network is private");
+                     ": leaves this host unencrypted; give the directory of the CURVE keys (--curve-dir), or "
+                     "--allow-plain-tcp if the network is private");
   }
 }
 

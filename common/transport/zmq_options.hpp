@@ -7,6 +7,7 @@
 #include <zmq.hpp>
 
 #include "transport/curve.hpp"
+#include "transport/endpoint.hpp"
 
 namespace grainstep::transport {
 
@@ -26,8 +27,9 @@ struct ZmqOptions {
 /// zmq_channel.hpp).
 inline constexpr zmq::socket_type channel_socket_type = zmq::socket_type::pair;
 
-/// InputError when `endpoint` would carry data across a network in the clear and nobody allowed that.
-void check_endpoint(const std::string& endpoint, const ZmqOptions& options);
+/// InputError when `endpoint` is none (endpoint.hpp), or would carry data across a network in the clear and nobody
+/// allowed that.
+void check_endpoint(const std::string& endpoint, Use use, const ZmqOptions& options);
 
 /// Options common to both ends.
 void set_options(zmq::socket_t& socket, const ZmqOptions& options);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "process/child_process.hpp"
 #include "process/launch.hpp"
 #include "study/execute.hpp"
@@ -129,6 +130,10 @@ int exit_code(const Report& report, bool whole) {
 int study(const StudyOptions& options) {
   const Plan plan = load_plan(options.study, options.full ? Fidelity::full : Fidelity::recommended);
   const fs::path root = root_of(options);
+  for (const fs::path& other : options.reuse) {
+    std::error_code ignored;
+    if (!fs::is_directory(other, ignored)) throw InputError("--reuse " + other.string() + ": no such directory");
+  }
   std::vector<Outcome> outcomes = locate(plan, root, options.reuse);
   choose(plan, options, root, outcomes);
   if (options.list) {

@@ -56,16 +56,5 @@ TEST_F(Curve, missing_and_broken_keys_are_named) {
   }
 }
 
-TEST(LeavesThisHost, only_tcp_beyond_loopback) {
-  EXPECT_FALSE(leaves_this_host("ipc:///run/channel"));
-  EXPECT_FALSE(leaves_this_host("tcp://127.0.0.1:5555"));
-  EXPECT_FALSE(leaves_this_host("tcp://localhost:*"));
-  EXPECT_FALSE(leaves_this_host("tcp://[::1]:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://*:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://0.0.0.0:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://node17:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://127.example.org:5555"));
-}
-
 }  // namespace
 }  // namespace grainstep::transport

@@ -112,6 +112,16 @@ TEST_F(ZmqChannelTest, tcp_beyond_this_host_wants_keys_or_permission) {
   EXPECT_NE(ZmqChannel::bind("tcp://*:*", with_keys("keys")), nullptr);
 }
 
+// libzmq would take these, and neither keys nor permission would have a say.
+TEST_F(ZmqChannelTest, other_schemes_are_refused_with_and_without_keys) {
+  for (const auto* const endpoint : {"ws://127.0.0.1:*", "ws://0.0.0.0:*", "ipc://@grainstep-test", "inproc://name"}) {
+    EXPECT_THROW((void)ZmqChannel::bind(endpoint), InputError) << endpoint;
+    EXPECT_THROW((void)ZmqChannel::bind(endpoint, with_keys("keys")), InputError) << endpoint;
+    EXPECT_THROW((void)ZmqChannel::bind(endpoint, {.allow_plain_tcp = true}), InputError) << endpoint;
+    EXPECT_THROW((void)ZmqChannel::connect(endpoint, soon()), InputError) << endpoint;
+  }
+}
+
 TEST_F(ZmqChannelTest, an_endpoint_that_cannot_be_had_is_bad_input) {
   EXPECT_THROW((void)ZmqChannel::bind("carrier-pigeon://here"), InputError);
   auto bound = ZmqChannel::bind("tcp://127.0.0.1:*");
