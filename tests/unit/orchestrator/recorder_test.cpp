@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
 #include "orchestrator/summary.hpp"
-#include "temporary_directory.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -47,7 +47,7 @@ class RecorderTest : public ::testing::Test {
     for (const double x : {-1.0, 0.0, 1.0, 0.0}) surface_.add_position(x);
     surface_.add_segment(0);
     surface_.add_segment(1);
-    directory_.prepare(results::Existing::refuse);
+    static_cast<void>(directory_.prepare(results::Existing::refuse));
     file_.emplace(directory_.results(), std::vector<results::Text>{});
     recorder_.emplace(Recorder::Context{.scene = scene_, .groups = groups_, .plan = plan_, .surface = surface_},
                       directory_, *file_, nullptr);
@@ -62,7 +62,7 @@ class RecorderTest : public ::testing::Test {
       forces.add_impulse(0.5 * impulse);
     }
     recorder_->forces(forces);
-    if (n % plan_.report_every == 0) {
+    if (n % static_cast<std::uint64_t>(plan_.report_every) == 0) {
       recorder_->report(wire::STRUCTURE, report(n, 0.0, 1.0));
       recorder_->report(wire::IMPACTOR, report(n, -10.0, -1.0));
     }
@@ -106,7 +106,7 @@ class RecorderTest : public ::testing::Test {
   scene::Groups groups_ = scene::groups(scene_);
   StepPlan plan_;
   wire::Surface surface_;
-  grainstep::testing::TemporaryDirectory scratch_;
+  TemporaryDirectory scratch_;
   results::RunDirectory directory_{scratch_.path() / "run"};
   std::optional<results::ResultsFile> file_;
   std::optional<Recorder> recorder_;
