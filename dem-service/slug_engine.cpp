@@ -9,6 +9,7 @@
 #include "dem-service/lammps_adapter.hpp"
 #include "dem-service/pair/style.hpp"
 #include "dem-service/surface_fix.hpp"
+#include "surface/disc_overlap.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -28,7 +29,11 @@ std::string text_of(const char* format, ...) {
 }
 
 SlugModel model_of(const wire::Setup& setup) {
-  return make_slug_model(setup.impactor().impactor(), setup.symmetry(), setup.depth(), setup.mirror());
+  const wire::ImpactorSetup& part = setup.impactor();
+  SlugModel model = make_slug_model(part.impactor(), setup.symmetry(), setup.depth(), setup.mirror());
+  meet(model, part.impactor().slug().surface_contact(), part.free_mass(),
+       mean_length(MovingSurface(part.surface()).now()));
+  return model;
 }
 
 }  // namespace

@@ -190,6 +190,15 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   return model;
 }
 
+void meet(SlugModel& model, const scene::SurfaceContact& contact, double free_mass, double facet) {
+  model.free_mass = free_mass / model.whole();
+  model.on_surface.effective_mass = contact::reduced_mass(model.mass_of(model.smallest()), model.free_mass);
+  using Contact = scene::SurfaceContact;
+  const bool fine = model.largest() > widest_point_contact * facet;
+  model.chord =
+      contact.spreading() == Contact::SPREADING_CHORD || (contact.spreading() != Contact::SPREADING_POINT && fine);
+}
+
 namespace {
 
 /// `heaviest`: kg, the largest effective mass.
@@ -209,7 +218,8 @@ ContactLaw calibrated_pair_law(const SlugModel& model, double dt) {
 }
 
 ContactLaw calibrated_surface_law(const SlugModel& model, double dt) {
-  return calibrated(model.surface_law, model, model.on_surface, model.mass_of(model.largest()), dt);
+  const double heaviest = contact::reduced_mass(model.mass_of(model.largest()), model.free_mass);
+  return calibrated(model.surface_law, model, model.on_surface, heaviest, dt);
 }
 
 double largest_stable_step(const Collision& pair, double tangential_stiffness, const Neighbours& neighbours) {

@@ -3,9 +3,11 @@
 #include <cstdio>
 
 #include "dem-service/preview.hpp"
+#include "dem-service/slug_model.hpp"
 #include "orchestrator/participants.hpp"
 #include "participant/schedule.hpp"
 #include "scene/load.hpp"
+#include "scene/number_text.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -49,6 +51,19 @@ ImpactorPreview preview_impactor(const scene::Scene& scene, bool mirror) {
   return scene.impactor().type() == scene::Impactor::TYPE_FOAM ? of_foam(scene, mirror) : without_mass();
 }
 
+/// What a dent under one particle depends on, if its force acts at a point (docs/theory/contact.md).
+void point_contact_is_meant(const Preparation& p, std::vector<scene::Finding>& warnings) {
+  const scene::SurfaceContact& contact = p.scene.impactor().slug().surface_contact();
+  if (contact.spreading() != scene::SurfaceContact::SPREADING_POINT || !p.impactor || !p.structure) return;
+  const double elements = p.impactor->largest / p.structure->element_size;
+  if (!(p.structure->element_size > 0.0) || !(elements > dem::widest_point_contact)) return;
+  warnings.push_back({scene::Severity::warning, "impactor.slug.surface_contact.spreading",
+                      "point: a particle is as wide as " + scene::rounded_text(elements) +
+                          " elements of the surface, and the dent under it will follow the mesh, with its plastic work "
+                          "and the rebound. Write chord (auto takes it from " +
+                          scene::rounded_text(dem::widest_point_contact) + " on), or a coarser mesh"});
+}
+
 }  // namespace
 
 Preparation prepare(const RunOptions& options) {
@@ -76,6 +91,7 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   if (!is_external(wire::IMPACTOR, scene, options)) {
     out.impactor = preview_impactor(scene, mirror);
   }
+  point_contact_is_meant(out, out.warnings);
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end,
                           {.stable = out.impactor->stable_step,
