@@ -7,7 +7,7 @@
 
 namespace grainstep::dem {
 
-struct ImpactorPreview {
+struct SlugPreview {
   std::uint64_t particles = 0;
   double particle_mass = 0.0;            ///< kg, mean
   double mass = 0.0;                     ///< kg, of all particles; of a slice's those of the full circle
@@ -22,7 +22,6 @@ struct ImpactorPreview {
 };
 
 /// Throws InputError for what this impactor cannot compute, e.g. a solid fraction above what its packing reaches.
-[[nodiscard]] ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
-                                      bool mirror);
+[[nodiscard]] SlugPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror);
 
 }  // namespace grainstep::dem

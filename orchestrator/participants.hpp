@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_directory.hpp"
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
 #include "orchestrator/supervision.hpp"
-#include "orchestrator/temporary_directory.hpp"
 #include "results/run_directory.hpp"
 #include "transport/zmq_channel.hpp"
 

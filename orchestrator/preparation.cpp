@@ -21,7 +21,7 @@ ImpactorPreview without_mass() {
 }
 
 ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
-  const dem::ImpactorPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
+  const dem::SlugPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
   return {.particles = slug.particles,
           .mass = slug.mass,
           .smallest = slug.smallest,

@@ -197,10 +197,12 @@ void Session::abandon(const std::string& reason, const std::string& lost) noexce
             handler, [this] { return finished(); }, at(deadline)));
       } catch (const PeerError& error) {
         lose(error.peer());
-      } catch (const std::runtime_error&) {  // an Error that crossed our Stop: it was that peer's last message
+      } catch (const InputError&) {      // an Error that crossed our Stop: it was that peer's last message
+      } catch (const NumericalError&) {  // the same, or a late row is beyond a limit
+      } catch (const OutputError&) {     // a late row cannot be written
       }
     }
-  } catch (...) {  // a second interrupt: no more waiting
+  } catch (...) {  // an interrupt, or the system refuses to wait: both were told, and that has to do
   }
 }
 

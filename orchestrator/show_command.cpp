@@ -25,16 +25,27 @@ std::string digest_of(const Json& facts, const std::filesystem::path& path) {
   }
 }
 
-void print_progress(const Json& progress) {
-  const Json& t_bar = progress["final_time"];
-  const std::string moment =
-      t_bar.is_number() ? moment_text(t_bar.get<double>(), 1.0)
-                        : moment_text(progress["time"].get<double>(), std::numeric_limits<double>::quiet_NaN());
-  std::printf("running: %.1f%%, %s, energy drift %.2e, momentum error %.1e\n",
-              100.0 * progress["progress"].get<double>(), moment.c_str(), progress["energy_drift"].get<double>(),
-              progress["momentum_error"].get<double>());
-  std::printf("last written %s ago; a run that is alive writes about every second once it steps\n",
-              duration_text(progress["seconds_since_written"].get<double>()).c_str());
+// A run that is alive is "running (process 1234 on node17)".
+std::string state_text(const Json& facts) {
+  const auto status = facts["status"].get<std::string>();
+  const auto process = facts["process"].get<std::string>();
+  if (status == "running") return process.empty() ? "running" : "running (" + process + ")";
+  if (status == "killed") return "ended without a summary: " + process + " was killed, or its machine went down";
+  return "without a summary, and nothing tells whether it runs";
+}
+
+void print_progress(const Json& facts) {
+  const Json& t_bar = facts["final_time"];
+  const std::string moment = t_bar.is_number()
+                                 ? moment_text(t_bar.get<double>(), 1.0)
+                                 : moment_text(facts["time"].get<double>(), std::numeric_limits<double>::quiet_NaN());
+  std::printf("%s\n", state_text(facts).c_str());
+  std::printf("%.1f%%, %s, energy drift %.2e, momentum error %.1e\n", 100.0 * facts["progress"].get<double>(),
+              moment.c_str(), facts["energy_drift"].get<double>(), facts["momentum_error"].get<double>());
+  if (facts.contains("seconds_since_written")) {
+    std::printf("last written %s ago%s\n", duration_text(facts["seconds_since_written"].get<double>()).c_str(),
+                facts["status"] == "killed" ? "" : "; a run that is alive writes about every second once it steps");
+  }
 }
 
 /// Runs below `root`, as far down as studies put them.
@@ -76,9 +87,11 @@ std::string what_is_there(const fs::path& path) {
 
 void show(const ShowOptions& options) {
   const results::RunDirectory directory(options.directory);
-  if (!directory.holds_a_run()) throw InputError(options.directory.string() + ": " + what_is_there(options.directory));
+  if (!directory.holds_a_run() && directory.occupation().state != results::Occupation::State::held) {
+    throw InputError(options.directory.string() + ": " + what_is_there(options.directory));
+  }
   const bool ended = std::filesystem::exists(directory.summary());
-  const Json facts = ended ? read_summary(directory.summary()) : read_progress(directory.results());
+  const Json facts = ended ? read_summary(directory.summary()) : read_progress(directory);
   if (options.json) {
     std::printf("%s\n", facts.dump(2).c_str());
   } else if (ended) {

@@ -47,9 +47,9 @@ class Orchestrator:
         self.wire, self.silence_s = wire, options.deadline
         self.sent = self.received = 0
         self.socket = zmq.Context.instance().socket(zmq.PAIR)
-        self.socket.setsockopt(zmq.LINGER, 2000)
+        self.socket.setsockopt(zmq.LINGER, 10000)
         self.socket.setsockopt(zmq.HEARTBEAT_IVL, 1000)
-        self.socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 2500)
+        self.socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 30000)
         if options.curve_dir:
             self.show_key(pathlib.Path(options.curve_dir))
         self.monitor = self.socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)

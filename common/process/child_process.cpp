@@ -209,6 +209,7 @@ std::optional<int> ChildProcess::exit_code() const {
 }
 
 bool ChildProcess::is_stopped() const {
+  if (status_) return false;
   siginfo_t info{};
   const bool told = ::waitid(P_PID, static_cast<id_t>(id_), &info, WSTOPPED | WNOHANG | WNOWAIT) == 0;
   return told && info.si_pid == id_;

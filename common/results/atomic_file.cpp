@@ -36,7 +36,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
     throw OutputError(path.string() + ": cannot be written: " + std::strerror(reason));
   };
   {
-    const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666));
     if (file.get() < 0 || !write_all(file.get(), contents)) {
       fail();
     }

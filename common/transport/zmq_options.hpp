@@ -16,9 +16,13 @@ struct ZmqOptions {
   std::filesystem::path curve_dir = {};  ///< keys (curve.hpp); empty: not encrypted
   bool allow_plain_tcp = false;  ///< unencrypted tcp beyond this host, e.g. inside a private network of containers
   double heartbeat_s = 1.0;      ///< a peer is asked for a sign of life this often ...
-  double silence_s = 2.5;        ///< ... and lost when it gives none for this long: at most 3.5 s together
-  double linger_s = 2.0;         ///< how long closing waits until the last messages are on their way
-  double full_queue_s = 60.0;    ///< how long send() bears a peer that reads nothing
+  /// ... and lost when no message of it has come for this long. Only for peers that are cut off or frozen: the end of a
+  /// process closes its connection, which is noticed at once. A message counts when all of it is here, so that this
+  /// also bounds how long a big one may take, over a slow network or on a machine with ten times the work that it has
+  /// cores.
+  double silence_s = 30.0;
+  double linger_s = 10.0;      ///< how long closing waits until the last messages are on their way
+  double full_queue_s = 60.0;  ///< how long send() bears a peer that reads nothing
   std::size_t largest_message = std::size_t{1} << 30;  ///< bytes; a longer one ends the connection
 };
 

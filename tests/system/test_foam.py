@@ -2,7 +2,7 @@
 import unittest
 
 import h5py
-from runs import BIN, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
+from runs import BIN, PATIENCE, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
 
 FOAM = ("--set", "impactor.type=foam")
 COARSE = (*FOAM, "--set", "impactor.foam.elements=40")
@@ -32,7 +32,7 @@ class Foam(unittest.TestCase):
                 self.assertGreater(file["series/impactor/foam_element_quality"][()].min(), 0.15)
             self.assertTrue((run.out / "impactor.pvd").is_file())
             self.assertEqual(len(list((run.out / "paraview").glob("impactor_*.vtu"))), count)
-            plotted = subprocess.run([SOURCE / "tools/plot", run.out], capture_output=True, text=True, timeout=120)
+            plotted = subprocess.run([SOURCE / "tools/plot", run.out], capture_output=True, text=True, timeout=PATIENCE)
             self.assertEqual(plotted.returncode, 0, plotted.stderr)
 
     def test_a_wall_feels_the_shock(self):

@@ -3,7 +3,7 @@ import unittest
 
 import h5py
 import numpy as np
-from runs import BIN, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile, until
+from runs import BIN, PATIENCE, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile, until
 
 KEYS = ["status", "reason", "exit_code", "impulse_number", "areal_mass_ratio", "loading_time_ratio", "peak_deflection",
         "peak_deflection_time", "peak_deflection_seconds", "final_deflection", "final_deflection_spread", "final_time",
@@ -166,7 +166,7 @@ class External(unittest.TestCase):
             program, *arguments = run.process.stdout.readline().split()
             with subprocess.Popen([BIN / program, *arguments]) as structure:
                 self.assertEqual(run.end().code, 0, run.stderr)
-                self.assertEqual(structure.wait(30), 0)
+                self.assertEqual(structure.wait(PATIENCE), 0)
             self.assertEqual(run.summary()["status"], "done")
 
 

@@ -9,6 +9,7 @@ import unittest
 import h5py
 import numpy as np
 from record import Comparison, check
+from runs import WHOLE_RUN
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 HARD = SOURCE / "configs/hard"
@@ -26,7 +27,7 @@ class Ended:
         self.out = pathlib.Path(self.scratch.name) / "run"
         overrides = [word for setting in ("output.snapshots=0", *settings) for word in ("--set", setting)]
         ended = subprocess.run([GRAINSTEP, "run", scene, "--out", self.out, "--quiet", *overrides], capture_output=True,
-                               text=True, timeout=300)
+                               text=True, timeout=WHOLE_RUN)
         self.code, self.stderr = ended.returncode, ended.stderr
         path = self.out / "summary.json"
         self.summary = json.loads(path.read_text()) if path.exists() else None

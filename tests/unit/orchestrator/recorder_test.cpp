@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
 #include "orchestrator/summary.hpp"
 #include "participant/schedule.hpp"
-#include "temporary_directory.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -59,7 +59,7 @@ class RecorderTest : public ::testing::Test {
   void start_over() {
     recorder_.reset();
     file_.reset();
-    directory_.prepare(results::Existing::replace);
+    static_cast<void>(directory_.prepare(results::Existing::replace));
     file_.emplace(directory_.results(), std::vector<results::Text>{});
     recorder_.emplace(Recorder::Context{.scene = scene_, .groups = groups_, .plan = plan_, .surface = surface_},
                       directory_, *file_, nullptr);
@@ -122,7 +122,7 @@ class RecorderTest : public ::testing::Test {
   scene::Groups groups_ = scene::groups(scene_);
   StepPlan plan_;
   wire::Surface surface_;
-  grainstep::testing::TemporaryDirectory scratch_;
+  TemporaryDirectory scratch_;
   results::RunDirectory directory_{scratch_.path() / "run"};
   std::optional<results::ResultsFile> file_;
   std::optional<Recorder> recorder_;

@@ -14,6 +14,7 @@
 #include "hand_played.hpp"
 #include "ledger/ledger.hpp"
 #include "participant/serve.hpp"
+#include "patience.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -68,7 +69,9 @@ class Stage {
 
   Witness witness_;
   std::optional<StepPlan> plan_;
-  Deadlines deadlines_{.connect_s = 20.0, .step_s = 20.0, .stop_s = 20.0};
+  Deadlines deadlines_{.connect_s = grainstep::testing::patience_s,
+                       .step_s = grainstep::testing::patience_s,
+                       .stop_s = grainstep::testing::patience_s};
   int impactor_code_ = -1;
   int structure_code_ = -1;
   std::function<void()> structure_ended_ = [] {};  // it has said all that it says
@@ -232,7 +235,8 @@ TEST(Introduction, RefusesTheWrongRole) {
   EventLoop loop;
   Hub hub(*impactor.near_, *structure.near_, loop);
   const scene::Scene scene;
-  Session session(hub, {.scene = scene, .hash = 1, .end = 1.0}, {.connect_s = 20, .step_s = 0.1, .stop_s = 0.1});
+  Session session(hub, {.scene = scene, .hash = 1, .end = 1.0},
+                  {.connect_s = grainstep::testing::patience_s, .step_s = 0.1, .stop_s = 0.1});
   fake::SpringStructure spring;
   impactor.messages_->send(spring.describe());
   EXPECT_THROW(session.introduce(), PeerError);

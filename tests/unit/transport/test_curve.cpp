@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
 
 namespace grainstep::transport {
 namespace {
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 class Curve : public ::testing::Test {
  protected:
-  testing::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   fs::path keys_ = directory_.path() / "keys";
 };
 
