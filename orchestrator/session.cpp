@@ -10,17 +10,11 @@
 namespace grainstep::orchestrator {
 namespace {
 
-using seconds = std::chrono::duration<double>;
-
 std::string number(double value) {  // a step of 1e-7 s is nothing to std::to_string
   std::ostringstream out;
   out.precision(4);
   out << value;
   return out.str();
-}
-
-Hub::Until at(transport::Deadline deadline) {
-  return [deadline] { return deadline; };
 }
 
 }  // namespace
@@ -50,11 +44,12 @@ void Session::introduce() {
   Peer& impactor = hub_.impactor();
   Peer& structure = hub_.structure();
   const auto done = [&] { return impactor.introduced && structure.introduced; };
-  if (!hub_.run(handler, done, at(transport::in(seconds(deadlines_.connect_s))))) {
+  const double patience = deadlines_.connect_s;  // what is waited and what is said are one number, here and below
+  if (!hub_.run(handler, done, Hub::within(patience))) {
     const std::string who = impactor.introduced    ? structure.name()
                             : structure.introduced ? impactor.name()
                                                    : impactor.name() + " and " + structure.name();
-    throw PeerError(who, "did not connect within " + std::to_string(static_cast<int>(deadlines_.connect_s)) +
+    throw PeerError(who, "did not connect within " + std::to_string(static_cast<int>(patience)) +
                              " s. Is it started with the right address? --connect-deadline waits longer.");
   }
 }
@@ -79,10 +74,10 @@ void Session::make_ready(Peer& peer, const wire::Setup& setup) {
     from.messages.take(frame, from.ready);
     ready = true;
   };
+  const double patience = deadlines_.step_s;
   if (!hub_.run(
-          handler, [&] { return ready; }, at(transport::in(seconds(deadlines_.step_s))))) {
-    throw PeerError(peer.name(), "did not prepare its model within " +
-                                     std::to_string(static_cast<int>(deadlines_.step_s)) +
+          handler, [&] { return ready; }, Hub::within(patience))) {
+    throw PeerError(peer.name(), "did not prepare its model within " + std::to_string(static_cast<int>(patience)) +
                                      " s; --step-deadline waits longer");
   }
   if (peer.ready.scene_hash() != task_.hash) {
@@ -145,9 +140,11 @@ void Session::complete() {
     peer.timing = last.timing();
     peer.finished = true;
   };
+  const double patience = deadlines_.step_s;
   if (!hub_.run(
-          handler, [this] { return finished(); }, at(transport::in(seconds(deadlines_.step_s))))) {
-    throw PeerError(hub_.impactor().finished ? hub_.structure().name() : hub_.impactor().name(), "did not answer Stop");
+          handler, [this] { return finished(); }, Hub::within(patience))) {
+    throw PeerError(hub_.impactor().finished ? hub_.structure().name() : hub_.impactor().name(),
+                    "did not answer Stop within " + std::to_string(static_cast<int>(patience)) + " s");
   }
 }
 
@@ -192,12 +189,12 @@ void Session::abandon(const std::string& reason, const std::string& lost) noexce
   try {
     lose(lost);
     tell_to_stop(reason);
-    const auto deadline = transport::in(seconds(deadlines_.stop_s));
+    const Hub::Until until = Hub::within(deadlines_.stop_s);
     const auto handler = [this](Peer& peer, const wire::Frame& frame) { hear_the_rest(peer, frame); };
-    while (!finished() && transport::Clock::now() < deadline) {
+    while (!finished() && transport::Clock::now() < until()) {
       try {
         static_cast<void>(hub_.run(
-            handler, [this] { return finished(); }, at(deadline)));
+            handler, [this] { return finished(); }, until));
       } catch (const PeerError& error) {
         lose(error.peer());
       } catch (const std::runtime_error&) {  // an Error that crossed our Stop: it was that peer's last message
