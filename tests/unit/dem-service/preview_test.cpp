@@ -93,7 +93,8 @@ Directions of_closest_spheres() {
   std::vector<surface::Vec3> normals;
   for (const double a : {-1.0, 1.0}) {
     for (const double b : {-1.0, 1.0}) {
-      for (const surface::Vec3& n : {surface::Vec3{{a, b, 0.0}}, surface::Vec3{{a, 0.0, b}}, surface::Vec3{{0.0, a, b}}})
+      for (const surface::Vec3& n :
+           {surface::Vec3{{a, b, 0.0}}, surface::Vec3{{a, 0.0, b}}, surface::Vec3{{0.0, a, b}}})
         normals.push_back(std::sqrt(0.5) * n);
     }
   }
