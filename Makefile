@@ -4,8 +4,8 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages configured build demo demo-programs test test-long verify sanitize drill golden bench bench-plates accuracy \
-  figures docs clean
+.PHONY: help packages configured build demo demo-programs test test-long verify sanitize drill golden bench bench-plates \
+  accuracy figures docs clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -31,7 +31,7 @@ configured: packages
 build: configured
 	@cmake --build --preset release -j $(JOBS)
 
-# The three programs of a run are half of all build steps, and what only tests use is not installed: `make test` does that.
+# The three programs of a run are half of all build steps; what only tests use is neither built nor installed.
 demo-programs:
 	@tools/install-packages build run plot
 	@test -f $(BUILD)/build.ninja || { echo "configuring in $(BUILD)/" && mkdir -p $(BUILD) && \

@@ -159,6 +159,29 @@ TEST_F(HandPlayed, NumbersThatAreNotFiniteEndTheRun) {
   EXPECT_THAT(run(), HasSubstr("numerical: impactor: Forces of window 0: value 0 is nan"));
 }
 
+TEST_F(HandPlayed, ASurfaceThatIsNowhereEndsTheRun) {
+  auto nowhere = kinematics(1);
+  nowhere.set_position(1, std::numeric_limits<double>::infinity());
+  impactor_.messages_->send(forces(0));
+  structure_.messages_->send(nowhere);
+  EXPECT_THAT(run(), HasSubstr("numerical: structure: position in Kinematics of window 1: value 1 is inf"));
+}
+
+TEST_F(HandPlayed, ASurfaceOfNoSpeedEndsTheRun) {
+  auto nowhere = kinematics(1);
+  nowhere.set_velocity(2, std::numeric_limits<double>::quiet_NaN());
+  impactor_.messages_->send(forces(0));
+  structure_.messages_->send(nowhere);
+  EXPECT_THAT(run(), HasSubstr("numerical: structure: velocity in Kinematics of window 1: value 2 is nan"));
+}
+
+TEST_F(HandPlayed, AReportThatIsNoNumberEndsTheRun) {
+  wire::Report report;
+  report.mutable_energy()->set_plastic(std::numeric_limits<double>::quiet_NaN());
+  structure_.messages_->send(report);
+  EXPECT_THAT(run(), HasSubstr("numerical: structure: report of window 0: energy.plastic = nan"));
+}
+
 TEST_F(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
   impactor_.messages_->send(forces(0));
   impactor_.far_.reset();

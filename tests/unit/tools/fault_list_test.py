@@ -38,7 +38,8 @@ class FaultList(unittest.TestCase):
             self.assertLessEqual(set(fault.targets), targets, fault.name)
 
     def test_every_pattern_matches_a_test(self):
-        listed = subprocess.run(["ctest", "--test-dir", BUILD, "--show-only=json-v1"], capture_output=True, text=True, check=True)
+        listed = subprocess.run(["ctest", "--test-dir", BUILD, "--show-only=json-v1"], capture_output=True, text=True,
+                                check=True)
         names = [test["name"] for test in json.loads(listed.stdout)["tests"]]
         unbuilt = {name.removesuffix("_NOT_BUILT") for name in names if name.endswith("_NOT_BUILT")}
         for fault in self.faults:
@@ -88,7 +89,8 @@ class Drill(unittest.TestCase):
         self.assertIn("**broken** one: its old text is 0 times in law.cpp", page)
 
     def test_failures_are_read_from_ctest(self):
-        text = "The following tests FAILED:\n\t 12 - Law.N (Failed)\n\t 13 - Law.M (Timeout)\n\nThe following tests did not run:\n\t 3 - X (Skipped)\n"
+        text = ("The following tests FAILED:\n\t 12 - Law.N (Failed)\n\t 13 - Law.M (Timeout)\n\n"
+                "The following tests did not run:\n\t 3 - X (Skipped)\n")
         self.assertEqual(drill.FAILED.findall(text), ["Law.N", "Law.M"])
 
 
