@@ -4,7 +4,8 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages build demo test test-long verify sanitize bench bench-plates accuracy figures docs clean
+.PHONY: help packages configured build demo demo-programs test test-long verify sanitize drill golden bench bench-plates \
+  accuracy figures docs clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -13,6 +14,8 @@ help:
 	@echo "make test-long the long tests: convergence, full scenes"
 	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
+	@echo "make drill     faults put into a copy of the sources: which tests see them (docs/drill.md, about an hour)"
+	@echo "make golden    do short runs of every kind still give the bits of this results version"
 	@echo "make bench     the speed table of bench/README.md"
 	@echo "make bench-plates  the same for slugs of spheres, two MPI ranks included"
 	@echo "make accuracy  speed against error again, with quiet timings: docs/accuracy.md and what check recommends (half an hour)"
@@ -22,11 +25,21 @@ help:
 packages:
 	@tools/install-packages build run plot test
 
-build: packages
+configured: packages
 	@test -f $(BUILD)/build.ninja || cmake --preset release
+
+build: configured
 	@cmake --build --preset release -j $(JOBS)
 
-demo: build
+# The three programs of a run are half of all build steps; what only tests use is neither built nor installed.
+demo-programs:
+	@tools/install-packages build run plot
+	@test -f $(BUILD)/build.ninja || { echo "configuring in $(BUILD)/" && mkdir -p $(BUILD) && \
+	  { cmake --preset release >$(BUILD)/configure.log 2>&1 || { cat $(BUILD)/configure.log; exit 1; }; }; }
+	@echo "building grainstep, grainstep-dem and grainstep-fe, $(JOBS) at a time: minutes the first time, seconds later"
+	@cmake --build --preset release -j $(JOBS) --target grainstep grainstep-dem grainstep-fe
+
+demo: demo-programs
 	@$(MAKE) --no-print-directory $(DEMO)/pictures/history.png
 	@$(BUILD)/bin/grainstep show $(DEMO)
 	@echo "pictures: $(DEMO)/pictures/history.png $(DEMO)/pictures/snapshots.png"
@@ -57,6 +70,13 @@ sanitize: packages
 	@test -f build-sanitize/build.ninja || cmake --preset sanitize
 	@cmake --build --preset sanitize -j $(JOBS)
 	@ctest --preset sanitize -j $(JOBS)
+
+# DRILL_OPTIONS=--only NAME tries one fault, --list shows them all, --keep keeps the scratch copy and its build.
+drill: packages
+	@$(PYTHON) tools/drill $(DRILL_OPTIONS)
+
+golden: build
+	@$(PYTHON) tools/golden --build $(BUILD)
 
 bench: build
 	@$(PYTHON) bench/run --build $(BUILD) $(BENCH_OPTIONS)

@@ -47,6 +47,10 @@ void Hub::hear_last_words(const std::string& peer, const Handler& handler) {
   }
 }
 
+Hub::Until Hub::within(double seconds) {
+  return [deadline = transport::in(std::chrono::duration<double>(seconds))] { return deadline; };
+}
+
 bool Hub::run(const Handler& handler, const Done& done, const Until& deadline) {
   loop_.wake();
   try {

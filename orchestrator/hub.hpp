@@ -35,6 +35,9 @@ class Hub {
   using Done = std::function<bool()>;
   using Until = std::function<transport::Deadline()>;
 
+  /// The moment that many seconds from now.
+  [[nodiscard]] static Until within(double seconds);
+
   /// Hands every message to `handler` until `done` (true) or until the deadline, which is asked for anew before every
   /// wait, has passed (false). An Error of a participant becomes the exception it stands for.
   bool run(const Handler& handler, const Done& done, const Until& deadline);

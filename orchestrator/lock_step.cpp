@@ -47,18 +47,22 @@ void LockStep::run() {
   const auto now = transport::Clock::now();
   hub_.impactor().heard = now;
   hub_.structure().heard = now;
-  const auto deadline = [this] {
+  const auto until = [this] {
     observer_.idle();
-    return waited_for().heard +
-           std::chrono::duration_cast<transport::Clock::duration>(std::chrono::duration<double>(silence_s_));
+    return deadline();
   };
   if (!hub_.run([this](Peer& peer, const wire::Frame& frame) { handle(peer, frame); }, [this] { return done(); },
-                deadline)) {
+                until)) {
     throw PeerError(waited_for().name(), "said nothing for " + std::to_string(static_cast<int>(silence_s_)) +
                                              " s at window " + std::to_string(next_forces_) + " of " +
                                              std::to_string(start_.windows()) +
                                              ". If its steps take that long, raise --step-deadline.");
   }
+}
+
+transport::Deadline LockStep::deadline() const {
+  return waited_for().heard +
+         std::chrono::duration_cast<transport::Clock::duration>(std::chrono::duration<double>(silence_s_));
 }
 
 const Peer& LockStep::waited_for() const {

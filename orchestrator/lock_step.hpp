@@ -18,6 +18,9 @@ class LockStep {
 
   void run();
 
+  /// When the side that is waited for has been silent for too long.
+  [[nodiscard]] transport::Deadline deadline() const;
+
   /// A message that comes after run() has thrown: a Report or a Snapshot still goes to the observer, the rest has
   /// become void.
   void late(Peer& peer, const wire::Frame& frame);

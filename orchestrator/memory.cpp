@@ -24,9 +24,9 @@ std::string gibibytes(std::uint64_t bytes) {
 
 /// Limit of the control group that a container is, bytes. A group without one says "max", or a number beyond all
 /// memory.
-std::optional<std::uint64_t> limit_of_group() {
-  for (const char* path : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-    std::ifstream file(path);
+std::optional<std::uint64_t> limit_of_group(const std::filesystem::path& groups) {
+  for (const char* path : {"memory.max", "memory/memory.limit_in_bytes"}) {
+    std::ifstream file(groups / path);
     std::uint64_t limit = 0;
     if (file >> limit) return limit;
   }
@@ -45,12 +45,13 @@ std::uint64_t memory_of(const Preparation& p, int ranks) {
   return bytes;
 }
 
-std::optional<std::uint64_t> memory_of_machine() {
+std::optional<std::uint64_t> memory_of_machine(const std::filesystem::path& groups) {
   const long pages = sysconf(_SC_PHYS_PAGES);
   const long page = sysconf(_SC_PAGE_SIZE);
-  if (pages <= 0 || page <= 0) return limit_of_group();
+  const std::optional<std::uint64_t> limit = limit_of_group(groups);
+  if (pages <= 0 || page <= 0) return limit;
   const std::uint64_t all = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
-  return std::min(all, limit_of_group().value_or(all));
+  return std::min(all, limit.value_or(all));
 }
 
 void require_memory(const Preparation& p, int ranks, std::optional<std::uint64_t> machine) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 
 #include "orchestrator/preparation.hpp"
@@ -13,8 +14,8 @@ namespace grainstep::orchestrator {
 [[nodiscard]] std::uint64_t memory_of(const Preparation& preparation, int ranks);
 
 /// What this machine has, bytes: its memory, or what its control group allows if that is less. nullopt: it does not
-/// say.
-[[nodiscard]] std::optional<std::uint64_t> memory_of_machine();
+/// say. `groups`: where the control group of a container shows itself.
+[[nodiscard]] std::optional<std::uint64_t> memory_of_machine(const std::filesystem::path& groups = "/sys/fs/cgroup");
 
 /// Throws InputError where the estimate is more than `machine` has. Several ranks may be on several machines: they only
 /// get a warning on stderr.

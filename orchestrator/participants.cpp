@@ -10,9 +10,7 @@
 #include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
-namespace {
 
-// The structure listens one port above the impactor; 0 and * are any free port for both.
 std::string next_port(const std::string& endpoint) {
   const std::size_t colon = endpoint.rfind(':');
   const std::string port = endpoint.substr(colon + 1);
@@ -26,8 +24,6 @@ std::string next_port(const std::string& endpoint) {
   }
   return endpoint.substr(0, colon + 1) + std::to_string(number + 1);
 }
-
-}  // namespace
 
 bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& options) {
   const bool by_scene = role == wire::IMPACTOR ? scene.impactor().type() == scene::Impactor::TYPE_EXTERNAL

@@ -24,6 +24,10 @@ void check_connection(const scene::Scene& scene, const RunOptions& options);
 /// A slug is computed by grainstep-dem; what else loads a structure, by grainstep-fe in the impactor's role.
 [[nodiscard]] bool has_particles(const scene::Scene& scene);
 
+/// Where the structure listens when the impactor does at `endpoint`: one port above, or at any free one (0, *) as well.
+/// InputError for what is no port.
+[[nodiscard]] std::string next_port(const std::string& endpoint);
+
 class Participants {
  public:
   /// Opens both endpoints. InputError when one cannot be had.

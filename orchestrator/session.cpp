@@ -10,13 +10,7 @@
 namespace grainstep::orchestrator {
 namespace {
 
-using seconds = std::chrono::duration<double>;
-
 constexpr int digits = 4;  // of times and steps, in messages
-
-Hub::Until at(transport::Deadline deadline) {
-  return [deadline] { return deadline; };
-}
 
 }  // namespace
 
@@ -45,11 +39,12 @@ void Session::introduce() {
   Peer& impactor = hub_.impactor();
   Peer& structure = hub_.structure();
   const auto done = [&] { return impactor.introduced && structure.introduced; };
-  if (!hub_.run(handler, done, at(transport::in(seconds(deadlines_.connect_s))))) {
+  const double patience = deadlines_.connect_s;  // what is waited and what is said are one number, here and below
+  if (!hub_.run(handler, done, Hub::within(patience))) {
     const std::string who = impactor.introduced    ? structure.name()
                             : structure.introduced ? impactor.name()
                                                    : impactor.name() + " and " + structure.name();
-    throw PeerError(who, "did not connect within " + std::to_string(static_cast<int>(deadlines_.connect_s)) +
+    throw PeerError(who, "did not connect within " + std::to_string(static_cast<int>(patience)) +
                              " s. Is it started with the right address? --connect-deadline waits longer.");
   }
 }
@@ -74,10 +69,10 @@ void Session::make_ready(Peer& peer, const wire::Setup& setup) {
     from.messages.take(frame, from.ready);
     ready = true;
   };
+  const double patience = deadlines_.step_s;
   if (!hub_.run(
-          handler, [&] { return ready; }, at(transport::in(seconds(deadlines_.step_s))))) {
-    throw PeerError(peer.name(), "did not prepare its model within " +
-                                     std::to_string(static_cast<int>(deadlines_.step_s)) +
+          handler, [&] { return ready; }, Hub::within(patience))) {
+    throw PeerError(peer.name(), "did not prepare its model within " + std::to_string(static_cast<int>(patience)) +
                                      " s; --step-deadline waits longer");
   }
   if (peer.ready.scene_hash() != task_.hash) {
@@ -142,9 +137,11 @@ void Session::complete() {
     peer.timing = last.timing();
     peer.finished = true;
   };
+  const double patience = deadlines_.step_s;
   if (!hub_.run(
-          handler, [this] { return finished(); }, at(transport::in(seconds(deadlines_.step_s))))) {
-    throw PeerError(hub_.impactor().finished ? hub_.structure().name() : hub_.impactor().name(), "did not answer Stop");
+          handler, [this] { return finished(); }, Hub::within(patience))) {
+    throw PeerError(hub_.impactor().finished ? hub_.structure().name() : hub_.impactor().name(),
+                    "did not answer Stop within " + std::to_string(static_cast<int>(patience)) + " s");
   }
 }
 
@@ -189,12 +186,12 @@ void Session::abandon(const std::string& reason, const std::string& lost) noexce
   try {
     lose(lost);
     tell_to_stop(reason);
-    const auto deadline = transport::in(seconds(deadlines_.stop_s));
+    const Hub::Until until = Hub::within(deadlines_.stop_s);
     const auto handler = [this](Peer& peer, const wire::Frame& frame) { hear_the_rest(peer, frame); };
-    while (!finished() && transport::Clock::now() < deadline) {
+    while (!finished() && transport::Clock::now() < until()) {
       try {
         static_cast<void>(hub_.run(
-            handler, [this] { return finished(); }, at(deadline)));
+            handler, [this] { return finished(); }, until));
       } catch (const PeerError& error) {
         lose(error.peer());
       } catch (const InputError&) {      // an Error that crossed our Stop: it was that peer's last message

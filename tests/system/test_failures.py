@@ -275,6 +275,10 @@ class BadInput(unittest.TestCase):
                     self.assertEqual(shown.returncode, 2, shown.stderr)
                     self.assertTrue(shown.stderr.startswith(f"grainstep: {summary}: is not a"), shown.stderr)
 
+    def test_more_memory_than_any_machine_has(self):
+        with Run("--set", "impactor.slug.particle.diameter=3 um") as run:  # 1.2 TB
+            self.refused(run, "of memory, snapshots included, but this machine has")
+
     def test_more_particles_than_can_be_counted(self):
         with Run("--set", "impactor.slug.particle.diameter=1 um") as run:
             self.refused(run, "particle.diameter")

@@ -3,7 +3,8 @@ import unittest
 
 import h5py
 import numpy as np
-from runs import BIN, PATIENCE, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile, until
+from runs import (BIN, LONG, PATIENCE, QUICK, SOURCE, Run, datasets, descendants, os, pathlib, signal, subprocess,
+                  tempfile, until)
 
 KEYS = ["status", "reason", "exit_code", "impulse_number", "areal_mass_ratio", "loading_time_ratio", "peak_deflection",
         "peak_deflection_time", "peak_deflection_seconds", "final_deflection", "final_deflection_spread", "final_time",
@@ -124,6 +125,12 @@ class Steps(unittest.TestCase):
                 self.assertEqual(run.end().code, 0, run.stderr)
                 self.assertNotEqual(run.summary()["impactor_steps"], run.summary()["structure_steps"])
                 self.assertLess(run.summary()["momentum_error"], ROUND_OFF)
+
+    def test_ranks_are_started_as_many_as_were_asked_for(self):
+        with Run("--ranks", "2", *LONG) as run:
+            until(lambda: list(descendants(run.process.pid).values()).count("grainstep-dem") == 2, "two processes of particles")
+            run.process.send_signal(signal.SIGINT)
+            self.assertEqual(run.end().code, 130, run.stderr)
 
     def test_two_ranks_give_the_same_response(self):
         with Run() as one, Run("--ranks", "2") as two:

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/error.hpp"
 #include "dem-service/slug_model.hpp"
-#include "engine_rig.hpp"
+#include "slice_rig.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -78,6 +80,51 @@ TEST(Preview, RefusesWhatCannotBeComputed) {
   scene::Impactor other = impactor();
   other.set_type(scene::Impactor::TYPE_EXTERNAL);
   expect_refused(other, "impactor.type");
+}
+
+/// Sums over the contacts of a particle in the densest packing, per direction: of the squares along the normals, and of
+/// those along the tangents.
+struct Directions {
+  double normal, tangential;
+};
+
+Directions of_closest_spheres() {
+  std::vector<surface::Vec3> normals;
+  for (const double a : {-1.0, 1.0}) {
+    for (const double b : {-1.0, 1.0}) {
+      for (const surface::Vec3& n :
+           {surface::Vec3{{a, b, 0.0}}, surface::Vec3{{a, 0.0, b}}, surface::Vec3{{0.0, a, b}}})
+        normals.push_back(std::sqrt(0.5) * n);
+    }
+  }
+  double along = 0.0;
+  for (const surface::Vec3& n : normals) along += n[0] * n[0];
+  return {along, static_cast<double>(normals.size()) - along};
+}
+
+// A contact adds at most 2 Kn/m along its normal; along its tangent 2 Ks/m from motion and 2 R^2/I Ks from rotation.
+TEST(StableStep, NeighboursAreThoseOfTheDensestPacking) {
+  constexpr double of_a_sphere = 2.0 / 5.0, of_a_disc = 1.0 / 2.0;  // I over m R^2
+  const Directions spheres = of_closest_spheres();
+  EXPECT_DOUBLE_EQ(neighbours_of_a_sphere.normal, 2.0 * spheres.normal);
+  EXPECT_DOUBLE_EQ(neighbours_of_a_sphere.tangential, (2.0 + 2.0 / of_a_sphere) * spheres.tangential);
+  EXPECT_DOUBLE_EQ(neighbours_of_a_sphere.damping, spheres.normal);
+  const Directions discs{3.0, 3.0};  // six at 60 degrees
+  EXPECT_DOUBLE_EQ(neighbours_of_a_disc.normal, 2.0 * discs.normal);
+  EXPECT_DOUBLE_EQ(neighbours_of_a_disc.tangential, (2.0 + 2.0 / of_a_disc) * discs.tangential);
+  EXPECT_DOUBLE_EQ(neighbours_of_a_disc.damping, discs.normal);
+}
+
+TEST(StableStep, AModelTakesItsOwnKindOfNeighbours) {
+  for (const bool spheres : {false, true}) {
+    const wire::Setup setup = spheres ? rig::slice_setup() : rig::reference_setup();
+    const SlugModel model = rig::model_of(setup);
+    const Neighbours& neighbours = spheres ? neighbours_of_a_sphere : neighbours_of_a_disc;
+    EXPECT_DOUBLE_EQ(model.stable_step,
+                     largest_stable_step(model.pair, model.pair_law.tangential_stiffness, neighbours));
+    EXPECT_DOUBLE_EQ(model.preferred_step, std::min(model.contact_time / 10.0, model.stable_step));
+    EXPECT_GT(model.pair_law.tangential_stiffness, 0.0);
+  }
 }
 
 TEST(StableStep, CoversTheStiffestModeOfAPackedLattice) {

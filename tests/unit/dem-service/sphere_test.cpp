@@ -31,6 +31,21 @@ TEST(Sphere, MassAndSliceAreThoseOfTheFullCircle) {
               0.5 * model.whole() * model.mass);
 }
 
+// 2/5 m R^2, and 1/2 m R^2 of a cylinder: what the ledger counts is what LAMMPS turns.
+TEST(Sphere, TheLedgerCountsTheEnergyOfItsSpin) {
+  constexpr double spin = 3e4;  // 1/s
+  for (const bool sphere : {true, false}) {
+    wire::Setup setup = sphere ? setup_of(0.7, 0.7) : reference_setup();
+    if (!sphere) set_flat_surface(setup, 0.5, 100);
+    const SlugModel model = model_of(setup);
+    const Vec3 place = sphere ? 0.05 * outward(middle) + 0.01 * up : 0.01 * up;
+    const ScriptedLink link = run(setup, start_of(model.preferred_step, 1), {{place, -speed * up, spin}});
+    const double inertia = (sphere ? 0.4 : 0.5) * model.mass * radius * radius;
+    const double expected = model.whole() * 0.5 * (model.mass * speed * speed + inertia * spin * spin);
+    for (const wire::Report& report : link.reports) EXPECT_NEAR(report.energy().kinetic() / expected, 1.0, 1e-12);
+  }
+}
+
 // The mean over the phase of entry is the scene's e, as for discs (tests/verification/dem/normal_impact.cpp).
 TEST(Sphere, ReturnsTheRestitutionFromARing) {
   constexpr int phases = 110;

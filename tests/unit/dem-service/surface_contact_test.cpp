@@ -72,6 +72,22 @@ Touching contact_of(const ScriptedLink& link, const surface::Polyline& ground) {
   return result;
 }
 
+// docs/theory/step.md: at n = 0 an impulse acts for half a step, from then on for a whole one.
+TEST(SurfaceContact, TheFirstImpulseIsThatOfHalfAStep) {
+  const double overlap = 0.01 * radius;
+  const double dt = step_of_reference();
+  const ScriptedLink link = fly({.nodes = {{{-0.05, 0}}, {{0.05, 0}}},
+                                 .particle = {{{0.0, radius - overlap}}, {}, 0.0},
+                                 .steps = 1,
+                                 .restitution = 1.0});
+  const double stiffness = model_of(reference_setup()).surface_law.normal_stiffness;
+  ASSERT_EQ(link.forces.size(), 2U);
+  EXPECT_NEAR(total_of(link.forces[0])[1] / (-stiffness * overlap * dt / 2.0), 1.0, 1e-12);
+  // The particle has moved a little: by a dt^2/2 with the stiffness over its mass, 0.2 of the overlap at t_e/10.
+  EXPECT_NEAR(total_of(link.forces[1])[1] / (-stiffness * overlap * dt), 1.0, 0.1);
+  EXPECT_EQ(link.reports.front().momentum().interface_impulse(1), 0.0) << "nothing has acted yet at t = 0";
+}
+
 TEST(SurfaceContact, OneContactAllTheWayOverAConvexCorner) {
   const std::vector<Vec2> nodes{{{-0.05, 0}}, {{0, 0}}, {{0.05, -0.01}}};
   const ScriptedLink link =

@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "base/error.hpp"
+#include "temporary_directory.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -54,6 +57,29 @@ TEST(Memory, WhatDoesNotFitIsRefusedByTheLargerSide) {
 }
 
 TEST(Memory, TheMachineHasSome) { EXPECT_GT(memory_of_machine().value_or(0), gibibyte / 4); }
+
+// Both ways in which Linux shows a container's limit; one without a limit says "max", or more than all memory.
+TEST(Memory, AContainerHasWhatItsGroupAllows) {
+  const grainstep::testing::TemporaryDirectory scratch;
+  const std::filesystem::path& groups = scratch.path();
+  const std::uint64_t all = memory_of_machine(groups).value();
+  constexpr std::uint64_t limit = 64ULL << 20U;
+  ASSERT_GT(all, limit);
+  const auto say = [&](const std::filesystem::path& file, const std::string& text) {
+    std::filesystem::create_directories((groups / file).parent_path());
+    std::ofstream(groups / file) << text << '\n';
+  };
+  const std::filesystem::path first = "memory/memory.limit_in_bytes";
+  say(first, "9223372036854771712");
+  EXPECT_EQ(memory_of_machine(groups), all);
+  say(first, std::to_string(limit));
+  EXPECT_EQ(memory_of_machine(groups), limit);
+  std::filesystem::remove(groups / first);
+  say("memory.max", "max");
+  EXPECT_EQ(memory_of_machine(groups), all);
+  say("memory.max", std::to_string(limit));
+  EXPECT_EQ(memory_of_machine(groups), limit);
+}
 
 }  // namespace
 }  // namespace grainstep::orchestrator

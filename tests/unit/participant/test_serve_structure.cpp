@@ -219,5 +219,15 @@ TEST_F(ServeStructure, a_silent_orchestrator_ends_it_at_the_deadline) {
   EXPECT_EQ(talk.error_text(), "error: orchestrator: expected Setup, heard nothing for 0.01 s\n");
 }
 
+TEST_F(ServeStructure, while_it_runs_silence_is_borne_for_the_deadline_of_data) {
+  auto& talk = orchestrator({.setup_deadline_s = 60.0, .data_deadline_s = 0.01});
+  talk.hear<wire::Hello>();
+  talk.tell(setup());
+  talk.hear<wire::Ready>();
+  talk.tell(start());
+  EXPECT_EQ(talk.exit_code(), 4);
+  EXPECT_EQ(talk.error_text(), "error: orchestrator: expected Forces of window 0, heard nothing for 0.01 s\n");
+}
+
 }  // namespace
 }  // namespace grainstep::participant
