@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
 #include "orchestrator/recorder.hpp"
-#include "temporary_directory.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -92,7 +92,7 @@ class GuardedRun {
   scene::Groups groups_ = scene::groups(scene_);
   StepPlan plan_;
   wire::Surface surface_;
-  grainstep::testing::TemporaryDirectory scratch_;
+  TemporaryDirectory scratch_;
   results::RunDirectory directory_{scratch_.path() / "run"};
   std::optional<results::ResultsFile> file_;
   std::optional<Recorder> recorder_;
