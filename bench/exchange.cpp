@@ -2,7 +2,6 @@
 /// over every kind of channel, directly and through a forwarding hub like the orchestrator. Serialising, checksums and
 /// parsing are included. Prints a Markdown table.
 #include <poll.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
 #include "transport/in_process_channel.hpp"
 #include "transport/zmq_channel.hpp"
 #include "wire/message_channel.hpp"
@@ -227,13 +227,8 @@ int main(int argc, char** argv) {
   int samples = 2000;
   app.add_option("--samples", samples, "Exchanges measured per figure")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  std::string directory = "/tmp/grainstep-bench-XXXXXX";
-  if (::mkdtemp(directory.data()) == nullptr) {
-    std::perror("mkdtemp");
-    return 1;
-  }
-  transport::make_keys(directory + "/keys");
-  print_table(directory, samples);
-  std::filesystem::remove_all(directory);
+  const TemporaryDirectory directory;
+  transport::make_keys(directory.path() / "keys");
+  print_table(directory.path().string(), samples);
   return 0;
 }

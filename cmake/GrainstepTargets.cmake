@@ -45,6 +45,14 @@ function(grainstep_program name)
   target_link_libraries(${name} PRIVATE grainstep_options ${arg_DEPENDS})
 endfunction()
 
+# What a test bears on a loaded machine, s; the number stands in the header. A test may have several such waits, and
+# CTest ends it only after that: its limit is for tests that hang, not for machines that are busy.
+file(STRINGS ${PROJECT_SOURCE_DIR}/tests/support/patience.hpp GRAINSTEP_PATIENCE REGEX "seconds patience{")
+string(REGEX REPLACE ".*{([0-9]+)}.*" "\\1" GRAINSTEP_PATIENCE "${GRAINSTEP_PATIENCE}")
+math(EXPR GRAINSTEP_TEST_TIMEOUT "4 * ${GRAINSTEP_PATIENCE}")
+math(EXPR GRAINSTEP_LONG_TIMEOUT "12 * ${GRAINSTEP_PATIENCE}")  # of tests that compute for minutes
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tests/support/patience.hpp)
+
 # grainstep_test(name SOURCES ... DEPENDS ... LABELS ... [TIMEOUT s]): one GoogleTest program, one CTest entry per TEST.
 # LABELS long keeps it out of `make test`; LABELS verify puts it on docs/verification.md and brings
 # support/verification_record.hpp.
@@ -57,9 +65,9 @@ function(grainstep_test name)
     target_link_libraries(${name} PRIVATE grainstep::verification_record)
   endif()
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 120)
+    set(arg_TIMEOUT ${GRAINSTEP_TEST_TIMEOUT})
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_list)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT ${GRAINSTEP_PATIENCE} TEST_LIST ${name}_list)
   # gtest_discover_tests takes its properties apart at every semicolon, and an empty one shifts what follows it. So they
   # are set on the discovered tests by a file that CTest reads after the discovery.
   set(properties ${CMAKE_CURRENT_BINARY_DIR}/${name}_properties.cmake)
@@ -76,9 +84,9 @@ endfunction()
 function(grainstep_verification_script name)
   cmake_parse_arguments(arg "" "SCRIPT;TIMEOUT" "LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
+    set(arg_TIMEOUT ${GRAINSTEP_TEST_TIMEOUT})
   endif()
   add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/${arg_SCRIPT})
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} ENVIRONMENT
-    "GRAINSTEP_TEST=${name};GRAINSTEP_BIN=${PROJECT_BINARY_DIR}/bin;PYTHONDONTWRITEBYTECODE=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;PYTHONPATH=${PROJECT_SOURCE_DIR}/tests/verification:${PROJECT_SOURCE_DIR}/tests/system")
+    "GRAINSTEP_TEST=${name};GRAINSTEP_PATIENCE=${GRAINSTEP_PATIENCE};GRAINSTEP_BIN=${PROJECT_BINARY_DIR}/bin;PYTHONDONTWRITEBYTECODE=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;PYTHONPATH=${PROJECT_SOURCE_DIR}/tests/verification:${PROJECT_SOURCE_DIR}/tests/system")
 endfunction()

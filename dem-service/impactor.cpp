@@ -84,7 +84,7 @@ class Impactor final : public participant::ImpactorBackend {
     ready.set_stable_step(model.stable_step);
     ready.set_preferred_step(model.preferred_step);
     ready.set_size(model.particles);
-    ready.set_mass(model.whole() * model.mass * static_cast<double>(model.particles));
+    ready.set_mass(model.mass_of_all());
     ready.set_contact_mass(model.whole() * model.mass_of(model.largest()));
     ready.set_contact_time(model.contact_time);
     ready.set_memory(resident_bytes_of_all(options_.communicator));

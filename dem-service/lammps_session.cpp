@@ -1,10 +1,8 @@
 #include "dem-service/lammps_session.hpp"
 
-#include "dem-service/lammps_fmt.hpp"
+#include "dem-service/lammps_adapter.hpp"
 
 #define LAMMPS_LIB_MPI  // library.h declares lammps_open only then
-#include <lammps/error.h>
-#include <lammps/lammps.h>
 #include <lammps/library.h>
 
 #include <array>
@@ -51,6 +49,12 @@ void LammpsSession::command(const std::string& text) {
     }
     throw NumericalError(message);
   }
+}
+
+void LammpsSession::create_particles(const NewParticles& particles) {
+  const std::vector<int> type(particles.identity.size(), 1);
+  lammps_create_atoms(handle_, static_cast<int>(type.size()), particles.identity.data(), type.data(),
+                      particles.position.data(), particles.velocity.data(), nullptr, 0);
 }
 
 }  // namespace grainstep::dem

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -37,6 +38,14 @@ class LammpsSession {
   /// Runs one command, collectively. Throws NumericalError with the command and LAMMPS's own words. Where LAMMPS fails
   /// on one of several ranks alone, the others would wait for ever: the text goes to stderr and the MPI job is aborted.
   void command(const std::string& text);
+
+  /// Of particles of type 1; `identity` from 1.
+  struct NewParticles {
+    const std::vector<int>& identity;
+    const std::vector<double>& position;  ///< m, three each
+    const std::vector<double>& velocity;  ///< m/s, likewise
+  };
+  void create_particles(const NewParticles& particles);
 
   [[nodiscard]] void* handle() { return handle_; }
   [[nodiscard]] LAMMPS_NS::LAMMPS& lammps() { return *static_cast<LAMMPS_NS::LAMMPS*>(handle_); }

@@ -41,11 +41,12 @@ double length_of_list(const SlugModel& model) {
 
 }  // namespace
 
-ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
+SlugPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
   const SlugModel model = make_slug_model(impactor, symmetry, depth, mirror);
-  ImpactorPreview preview;
+  SlugPreview preview;
   preview.particles = model.particles;
   preview.particle_mass = model.mass;
+  preview.mass = model.mass_of_all();
   preview.smallest = model.smallest();
   preview.largest = model.largest();
   preview.contact_mass = model.whole() * model.mass_of(model.largest());

@@ -7,9 +7,10 @@
 
 namespace grainstep::dem {
 
-struct ImpactorPreview {
+struct SlugPreview {
   std::uint64_t particles = 0;
   double particle_mass = 0.0;            ///< kg, mean
+  double mass = 0.0;                     ///< kg, of all particles; of a slice's those of the full circle
   double smallest = 0.0, largest = 0.0;  ///< m, diameters
   double contact_mass = 0.0;        ///< kg, of the largest; of a slice's sphere as a ring of the full circle feels it
   double contact_time = 0.0;        ///< s, t_e of a pair of the smallest (2.4)
@@ -21,7 +22,6 @@ struct ImpactorPreview {
 };
 
 /// Throws InputError for what this impactor cannot compute, e.g. a solid fraction above what its packing reaches.
-[[nodiscard]] ImpactorPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
-                                      bool mirror);
+[[nodiscard]] SlugPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror);
 
 }  // namespace grainstep::dem

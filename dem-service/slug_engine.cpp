@@ -1,19 +1,15 @@
 #include "dem-service/slug_engine.hpp"
 
-#include "dem-service/lammps_fmt.hpp"
-
-#include <lammps/atom.h>
-#include <lammps/lammps.h>
-#include <lammps/library.h>
-
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
 
 #include "base/error.hpp"
+#include "dem-service/lammps_adapter.hpp"
 #include "dem-service/pair/style.hpp"
 #include "dem-service/surface_fix.hpp"
+#include "surface/disc_overlap.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -33,7 +29,11 @@ std::string text_of(const char* format, ...) {
 }
 
 SlugModel model_of(const wire::Setup& setup) {
-  return make_slug_model(setup.impactor().impactor(), setup.symmetry(), setup.depth(), setup.mirror());
+  const wire::ImpactorSetup& part = setup.impactor();
+  SlugModel model = make_slug_model(part.impactor(), setup.symmetry(), setup.depth(), setup.mirror());
+  meet(model, part.impactor().slug().surface_contact(), part.free_mass(),
+       mean_length(MovingSurface(part.surface()).now()));
+  return model;
 }
 
 }  // namespace
@@ -53,12 +53,10 @@ SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup,
 
 void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) {
   if (particles.size() > std::numeric_limits<int>::max()) throw InputError("impactor.slug: more than 2^31 particles");
-  const int count = static_cast<int>(particles.size());
   const double room = 2.0 * model_.largest();
   surface::Vec3 low = particles.front().position;
   surface::Vec3 high = low;
   std::vector<int> identity(particles.size());
-  std::vector<int> type(particles.size(), 1);
   std::vector<double> position;
   std::vector<double> velocity;
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -83,15 +81,14 @@ void SlugEngine::create_particles(const std::vector<PlacedParticle>& particles) 
   session_.command(text_of("region slug block %.17g %.17g %.17g %.17g %.17g %.17g units box", low[0] - room,
                            high[0] + room, low[1] - room, high[1] + room, low[2] - beside, high[2] + beside));
   session_.command("create_box 1 slug");
-  lammps_create_atoms(session_.handle(), count, identity.data(), type.data(), position.data(), velocity.data(), nullptr,
-                      0);
-  LAMMPS_NS::Atom& atom = *session_.lammps().atom;
-  for (int i = 0; i < atom.nlocal; ++i) {
-    const PlacedParticle& particle = particles[static_cast<std::size_t>(atom.tag[i] - 1)];
+  session_.create_particles({.identity = identity, .position = position, .velocity = velocity});
+  const lammps::Particles made = lammps::particles_of(session_.lammps());
+  for (int i = 0; i < made.owned; ++i) {
+    const PlacedParticle& particle = particles[static_cast<std::size_t>(made.identity[i] - 1)];
     const double diameter = particle.diameter > 0.0 ? particle.diameter : model_.diameter;
-    atom.radius[i] = diameter / 2.0;
-    atom.rmass[i] = model_.mass_of(diameter);
-    atom.omega[i][2] = particle.spin;
+    made.radius[i] = diameter / 2.0;
+    made.mass[i] = model_.mass_of(diameter);
+    made.spin[i][2] = particle.spin;
   }
 }
 
@@ -100,7 +97,7 @@ void SlugEngine::set_laws(const ContactLaw& pair, double dt, double skin) {
   session_.command(text_of("pair_style %s %.17g %.17g %.17g %.17g", PairStyle::style_name, pair.normal_stiffness,
                            pair.tangential_stiffness, pair.damping_rate, pair.friction));
   session_.command("pair_coeff * *");
-  PairStyle::find(session_.lammps()).damp_by_mass(pair.damping_table);
+  lammps::find_pair<PairStyle>(session_.lammps()).damp_by_mass(pair.damping_table);
   session_.command(text_of("neighbor %.17g bin", skin));
   session_.command(text_of("neigh_modify delay 0 every 1 check yes binsize %.17g", model_.largest() + skin));
   session_.command(text_of("timestep %.17g", dt));
@@ -130,9 +127,9 @@ void SlugEngine::run(const wire::Start& start, participant::ImpactorLink* link) 
   MovingSurface surface(setup_.surface());
   RankExchange exchange(communicator_, link, surface.node_count());
   StepDriver driver(model_, start, settings, std::move(surface), exchange);
-  SurfaceFix::register_style(session_.lammps());
+  lammps::register_fix<SurfaceFix>(session_.lammps());
   session_.command("fix surface all grainstep/surface");
-  SurfaceFix::find(session_.lammps(), "surface").connect(driver, exchange);
+  lammps::find_fix<SurfaceFix>(session_.lammps(), "surface").connect(driver, exchange);
   session_.command(text_of("run %llu post no", static_cast<unsigned long long>(steps)));
   exchange.finish();
 }

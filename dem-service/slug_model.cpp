@@ -46,6 +46,13 @@ void check_slice(const scene::Slug& slug, double largest, std::ostringstream& te
   } else if (slug.angle() != 0.0 || slug.offset() != 0.0 || slug.confined()) {
     text << "impactor.slug: angle, offset and confined are for discs in the plane; a slug of revolution comes along "
             "its axis and spreads freely: leave them out";
+  } else if (2.0 * slug.half_width() * std::sin(0.5 * most_slice) < 3.0 * largest) {
+    text << "impactor.slug.half_width: found " << slug.half_width() << " m, too few particles of " << largest
+         << " m across: a slug of spheres is computed as a slice that is three of them wide at its rim, so it needs at "
+            "least "
+         << 1.5 * largest / std::sin(0.5 * most_slice)
+         << " m, whatever the slice_angle. Take a wider slug or smaller particles; a single one can be computed as a "
+            "cylinder, with symmetry: plane_strain";
   } else if (2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle()) < 3.0 * largest) {
     text << "impactor.slug.slice_angle: the slice is " << 2.0 * slug.half_width() * std::sin(0.5 * slug.slice_angle())
          << " m wide at the slug's rim, expected at least three particle diameters of " << largest
@@ -190,6 +197,15 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   return model;
 }
 
+void meet(SlugModel& model, const scene::SurfaceContact& contact, double free_mass, double facet) {
+  model.free_mass = free_mass / model.whole();
+  model.on_surface.effective_mass = contact::reduced_mass(model.mass_of(model.smallest()), model.free_mass);
+  using Contact = scene::SurfaceContact;
+  const bool fine = model.largest() > widest_point_contact * facet;
+  model.chord =
+      contact.spreading() == Contact::SPREADING_CHORD || (contact.spreading() != Contact::SPREADING_POINT && fine);
+}
+
 namespace {
 
 /// `heaviest`: kg, the largest effective mass.
@@ -209,7 +225,8 @@ ContactLaw calibrated_pair_law(const SlugModel& model, double dt) {
 }
 
 ContactLaw calibrated_surface_law(const SlugModel& model, double dt) {
-  return calibrated(model.surface_law, model, model.on_surface, model.mass_of(model.largest()), dt);
+  const double heaviest = contact::reduced_mass(model.mass_of(model.largest()), model.free_mass);
+  return calibrated(model.surface_law, model, model.on_surface, heaviest, dt);
 }
 
 double largest_stable_step(const Collision& pair, double tangential_stiffness, const Neighbours& neighbours) {

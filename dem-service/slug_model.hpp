@@ -39,6 +39,8 @@ struct SlugModel {
   Collision pair;                ///< two of the smallest particles, m_eff = m/2
   Collision on_surface;          ///< one of the smallest particles on the structure, m_eff = m
   bool lever_is_radius = false;  ///< else the distance from the centre to the touched point
+  double free_mass = 0.0;        ///< kg, of a free rigid target as one particle meets it; 0: it deforms or is held
+  bool chord = false;            ///< contacts act on the surface over the chord that they cut
 
   double contact_time = 0.0;    ///< t_e of a pair of the smallest, continuum (2.4)
   double stable_step = 0.0;     ///< see largest_stable_step()
@@ -53,6 +55,8 @@ struct SlugModel {
   [[nodiscard]] double scale_of_sizes() const;
   /// What is modelled of the whole: sums over a slice's particles times this are those of the full circle.
   [[nodiscard]] double whole() const { return spheres() ? 2.0 * std::numbers::pi / slice : 1.0; }
+  /// kg, of all particles of what is modelled.
+  [[nodiscard]] double mass_of_all() const { return whole() * mass * static_cast<double>(particles); }
   /// Rotational inertia over m R^2.
   [[nodiscard]] double gyration() const { return spheres() ? 0.4 : 0.5; }
 };
@@ -60,6 +64,14 @@ struct SlugModel {
 /// Throws InputError for what cannot be computed, e.g. a solid fraction above what random packing reaches.
 [[nodiscard]] SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth,
                                         bool mirror);
+
+/// The slug in front of this target: a free one of `free_mass` (kg, of what is modelled) rebounds itself, and a surface
+/// with elements of `facet` (m, on the mean) takes forces at points or over chords, as the scene says.
+void meet(SlugModel& model, const scene::SurfaceContact& contact, double free_mass, double facet);
+
+/// Elements narrower than the largest particle over this are too fine for contact at a point, m/m:
+/// docs/decisions/0015-contact-over-a-chord.md.
+inline constexpr double widest_point_contact = 3.0;
 
 /// The pair law and the surface law with their damping calibrated for the step dt (s): one rate for equal particles,
 /// else a table over the effective mass.

@@ -14,6 +14,8 @@ SurfaceContactSettings contact_settings(const SlugModel& model, const StepSettin
           .shape = model.spheres() ? contact::Shape::revolved : contact::Shape::extruded,
           .whole = model.whole(),
           .lever_is_radius = model.lever_is_radius,
+          .free_mass = model.free_mass,
+          .chord = model.chord,
           .largest_radius = model.largest() / 2.0,
           .particle_margin = settings.margin,
           .surface_margin = settings.margin / 2.0};

@@ -1,47 +1,23 @@
 #include "dem-service/surface_fix.hpp"
 
-#include <lammps/atom.h>
-#include <lammps/lammps.h>
-#include <lammps/modify.h>
-#include <lammps/timer.h>
-#include <lammps/update.h>
-
 #include <algorithm>
 
-#include "base/assert.hpp"
 #include "dem-service/pair/style.hpp"
 
 namespace grainstep::dem {
 namespace {
 
-LAMMPS_NS::Fix* create(LAMMPS_NS::LAMMPS* lammps, int argument_count, char** arguments) {
-  return new SurfaceFix(lammps, argument_count, arguments);  // owned by LAMMPS's list of fixes
-}
-
 constexpr int spring_values = 3;
 
 }  // namespace
 
-void SurfaceFix::register_style(LAMMPS_NS::LAMMPS& lammps) { (*lammps.modify->fix_map)[style_name] = &create; }
-
-SurfaceFix& SurfaceFix::find(LAMMPS_NS::LAMMPS& lammps, const char* id) {
-  const int index = lammps.modify->find_fix(id);
-  GS_ASSERT(index >= 0, std::string("no fix ") + id);
-  auto* fix = dynamic_cast<SurfaceFix*>(lammps.modify->fix[index]);
-  GS_ASSERT(fix != nullptr, std::string("another style of fix ") + id);
-  return *fix;
-}
-
-SurfaceFix::SurfaceFix(LAMMPS_NS::LAMMPS* lammps, int argument_count, char** arguments)
-    : Fix(lammps, argument_count, arguments) {
+SurfaceFix::SurfaceFix(lammps::Instance* lammps, int argument_count, char** arguments)
+    : ParticleFix(lammps, argument_count, arguments) {
   nevery = 1;
-  create_attribute = 1;
   maxexchange = spring_values;
-  SurfaceFix::grow_arrays(atom->nmax);
-  atom->add_callback(LAMMPS_NS::Atom::GROW);
+  SurfaceFix::grow_arrays(capacity());
+  follow_particles();
 }
-
-SurfaceFix::~SurfaceFix() { atom->delete_callback(id, LAMMPS_NS::Atom::GROW); }
 
 void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange) {
   driver_ = &driver;
@@ -49,24 +25,23 @@ void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange) {
 }
 
 int SurfaceFix::setmask() {
-  using namespace LAMMPS_NS::FixConst;
+  using namespace lammps::turns;
   return POST_NEIGHBOR | PRE_FORCE | POST_FORCE | END_OF_STEP;
 }
 
-ParticleArrays SurfaceFix::particles() {
-  return {.owned = atom->nlocal,
-          .position = atom->x,
-          .velocity = atom->v,
-          .spin = atom->omega,
-          .force = atom->f,
-          .torque = atom->torque,
-          .radius = atom->radius,
-          .mass = atom->rmass,
-          .identity = atom->tag,
+ParticleArrays SurfaceFix::arrays() {
+  const lammps::Particles now = particles();
+  return {.owned = now.owned,
+          .position = now.position,
+          .velocity = now.velocity,
+          .spin = now.spin,
+          .force = now.force,
+          .torque = now.torque,
+          .radius = now.radius,
+          .mass = now.mass,
+          .identity = now.identity,
           .spring = springs_.data()};
 }
-
-std::uint64_t SurfaceFix::step() const { return static_cast<std::uint64_t>(update->ntimestep); }
 
 /// LAMMPS knows nothing of our exceptions, and other ranks wait for this one: keep it for the next exchange.
 template <typename Work>
@@ -76,19 +51,19 @@ void SurfaceFix::guarded(Work&& work) {
   } catch (...) {
     exchange_->fail_with_current_exception();
   }
-  if (driver_->ended()) timer->force_timeout();
+  if (driver_->ended()) end_run();
 }
 
 void SurfaceFix::post_neighbor() {
-  guarded([&] { driver_->rebuild(particles()); });
+  guarded([&] { driver_->rebuild(arrays()); });
 }
 
 void SurfaceFix::pre_force(int /*flags*/) {
-  guarded([&] { driver_->before_pair_forces(step(), particles()); });
+  guarded([&] { driver_->before_pair_forces(step(), arrays()); });
 }
 
 void SurfaceFix::post_force(int /*flags*/) {
-  guarded([&] { driver_->after_pair_forces(step(), particles()); });
+  guarded([&] { driver_->after_pair_forces(step(), arrays()); });
 }
 
 void SurfaceFix::setup(int flags) {
@@ -97,7 +72,7 @@ void SurfaceFix::setup(int flags) {
 }
 
 void SurfaceFix::end_of_step() {
-  guarded([&] { driver_->end_of_step(step(), particles(), PairStyle::find(*lmp).energy()); });
+  guarded([&] { driver_->end_of_step(step(), arrays(), lammps::find_pair<PairStyle>(instance()).energy()); });
 }
 
 void SurfaceFix::grow_arrays(int capacity) { springs_.resize(static_cast<std::size_t>(capacity)); }

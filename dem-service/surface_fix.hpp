@@ -3,31 +3,18 @@
 /// docs/decisions/0001-how-lammps-is-driven.md and 0002-contact-history.md.
 #pragma once
 
-#include "dem-service/lammps_fmt.hpp"
-
-#include <lammps/fix.h>
-
 #include <vector>
 
+#include "dem-service/lammps_adapter.hpp"
 #include "dem-service/step_driver.hpp"
 
 namespace grainstep::dem {
 
-class SurfaceFix : public LAMMPS_NS::Fix {
+class SurfaceFix : public lammps::ParticleFix {
  public:
   static constexpr const char* style_name = "grainstep/surface";
 
-  /// Makes the style known to this LAMMPS instance.
-  static void register_style(LAMMPS_NS::LAMMPS& lammps);
-  /// The fix that a command `fix ID all grainstep/surface` has made.
-  static SurfaceFix& find(LAMMPS_NS::LAMMPS& lammps, const char* id);
-
-  SurfaceFix(LAMMPS_NS::LAMMPS* lammps, int argument_count, char** arguments);
-  ~SurfaceFix() override;
-  SurfaceFix(const SurfaceFix&) = delete;
-  SurfaceFix& operator=(const SurfaceFix&) = delete;
-  SurfaceFix(SurfaceFix&&) = delete;
-  SurfaceFix& operator=(SurfaceFix&&) = delete;
+  SurfaceFix(lammps::Instance* lammps, int argument_count, char** arguments);
 
   /// Both outlive the run.
   void connect(StepDriver& driver, RankExchange& exchange);
@@ -50,8 +37,7 @@ class SurfaceFix : public LAMMPS_NS::Fix {
   double memory_usage() override;
 
  private:
-  [[nodiscard]] ParticleArrays particles();
-  [[nodiscard]] std::uint64_t step() const;
+  [[nodiscard]] ParticleArrays arrays();
 
   template <typename Work>
   void guarded(Work&& work);

@@ -24,11 +24,7 @@ NodeRow row_of(const Nodes& nodes, std::size_t first) {
   return {nodes.x.data() + first, nodes.y.data() + first, nodes.u.data() + first, nodes.v.data() + first};
 }
 
-int state_components(const Material& material) {
-  if (std::holds_alternative<Dh36>(material)) return kPlasticState;
-  if (std::holds_alternative<Foam>(material)) return kFoamState;
-  return std::holds_alternative<Core>(material) ? kCoreState : kElasticState;
-}
+int state_components(const Material& material) { return traits_of(material).state; }
 
 /// Index of a triangle's component 0 in the state of its row.
 std::size_t state_index(int components, int column, int triangle) {
@@ -104,8 +100,10 @@ void Body::share_mass() {
 void Body::create_state() {
   for (int row = 0; row < mesh_.row_count(); ++row) {
     state_.emplace_back(mesh_.batches() * state_components(material(row)) * kBatchTriangles, 0.0);
-    if (const auto* steel = std::get_if<Dh36>(&material(row))) fill_state(row, kStaticStrength, steel->yield_strength);
-    if (std::holds_alternative<Core>(material(row))) fill_state(row, kAxisCosine, 1.0);
+    for (int component = kStressState; component < state_components(material(row)); ++component) {
+      const auto initial = [component](const auto& law) { return law.initial(component); };
+      fill_state(row, component, std::visit(initial, material(row)));
+    }
   }
 }
 
@@ -144,15 +142,8 @@ SweepResult Body::sweep(double step) {
     view.state = state_[row].data();
     view.scratch = scratch_.data();
     view.step = step;
-    if (const auto* steel = std::get_if<Dh36>(&material(row))) {
-      kernels_->sweep_dh36(view, *steel, measure_);
-    } else if (const auto* core = std::get_if<Core>(&material(row))) {
-      kernels_->sweep_core(view, *core, measure_);
-    } else if (const auto* foam = std::get_if<Foam>(&material(row))) {
-      kernels_->sweep_foam(view, *foam, measure_);
-    } else {
-      kernels_->sweep_elastic(view, std::get<Elastic>(material(row)), measure_);
-    }
+    std::visit([&](const auto& law) { kernels_->sweep(view, law, measure_); }, material(row));
+    if (!resistance_.empty()) resist(row, view, result);
     result.plastic_work += view.plastic_work;
     result.stored += view.stored;
     result.unconverged += view.unconverged;
@@ -160,6 +151,25 @@ SweepResult Body::sweep(double step) {
     if (!(quality >= result.min_quality)) result.min_quality = quality;
   }
   return result;
+}
+
+void Body::resist(int row, RowSweep& view, SweepResult& result) {
+  Resistance& resistance = resistance_[row];
+  kernels_->resist(view, resistance.law, resistance.stress.data(), measure_);
+  resistance.viscosity = view.viscosity;
+  result.viscous_work += view.viscous_work;
+}
+
+void Body::resist_volume(const BulkFactors& factors) {
+  resistance_.clear();
+  if (!factors.any()) return;
+  for (int row = 0; row < mesh_.row_count(); ++row) {
+    const Elastic& elastic = elastic_part(material(row));
+    const double speed = std::sqrt(elastic.longitudinal_modulus() / elastic.density);
+    const BulkViscosity law{elastic.density, factors.linear * speed, factors.quadratic * factors.quadratic};
+    const double size = std::sqrt(mesh_.rows[row].quad_area);
+    resistance_.push_back({law, law.density * size * law.linear_speed, Array(mesh_.centre_stride(), 0.0)});
+  }
 }
 
 void Body::kick(double weight) {
@@ -205,7 +215,21 @@ double Body::stable_step() const {
   for (int row = 0; row < mesh_.row_count(); ++row) {
     bound = kernels_->largest_frequency(row_view(row), elastic_part(material(row)), quad_mass(row), measure_, bound);
   }
-  return 2.0 / std::sqrt(bound);
+  return limit_of(bound);
+}
+
+/// Central differences with a viscosity that lags half a step are stable where M - dt/2 C - dt^2/4 K is positive. The
+/// quads' parts of it are, for C <= beta K: a dilatation costs at least this modulus.
+double Body::limit_of(double omega_squared) const {
+  double beta = 0.0;  // s
+  for (int row = 0; row < static_cast<int>(resistance_.size()); ++row) {
+    const Elastic& law = elastic_part(material(row));
+    const double modulus = law.lambda + (is_of_revolution(measure_) ? 2.0 / 3.0 : 1.0) * law.mu;
+    beta = std::max(beta, resistance_[row].viscosity / modulus);
+  }
+  const double omega = std::sqrt(omega_squared);
+  const double damping = 0.5 * beta * omega;
+  return 2.0 / omega * (std::sqrt(1.0 + damping * damping) - damping);
 }
 
 double Body::stable_step(int row, int column) const {
@@ -216,7 +240,7 @@ double Body::stable_step(int row, int column) const {
   view.quads = 1;
   QuadMass mass = quad_mass(row);
   mass.left += column * mass.width;
-  return 2.0 / std::sqrt(kernels_->largest_frequency(view, elastic_part(material(row)), mass, measure_, 0.0));
+  return limit_of(kernels_->largest_frequency(view, elastic_part(material(row)), mass, measure_, 0.0));
 }
 
 QuadMass Body::quad_mass(int row) const {
@@ -242,10 +266,13 @@ Stress Body::stress(int row, int column, int triangle) const {
           state(kZZ, row, column, triangle)};
 }
 
+double Body::viscous_stress(int row, int column) const {
+  return resistance_.empty() ? 0.0 : resistance_[row].stress[column];
+}
+
 double Body::plastic_strain(int row, int column, int triangle) const {
-  if (std::holds_alternative<Core>(material(row))) return std::max(0.0, state(kCompaction, row, column, triangle));
-  if (std::holds_alternative<Elastic>(material(row))) return 0.0;
-  return state(kPlasticStrain, row, column, triangle);
+  const int flow = traits_of(material(row)).flow;
+  return flow == kNoFlow ? 0.0 : std::max(0.0, state(flow, row, column, triangle));
 }
 
 Body::TriangleNodes Body::triangle(int row, int column, int triangle) const {

@@ -22,6 +22,7 @@ struct Nodes {
 
 struct SweepResult {
   double plastic_work = 0.0;  ///< J
+  double viscous_work = 0.0;  ///< J, of bulk viscosity
   double stored = 0.0;        ///< J, by which stored energy grew; of foam only
   double min_quality = 0.0;   ///< smallest element area over its undeformed area
   int unconverged = 0;        ///< batches in which the material's iteration did not converge
@@ -35,6 +36,9 @@ class Body {
   /// `layers` by layer index of the mesh.
   Body(Mesh mesh, std::vector<Material> layers, const Measure& measure,
        const Kernels& kernels = *available_kernels().front());
+
+  /// Bulk viscosity of all rows; before the first sweep.
+  void resist_volume(const BulkFactors& factors);
 
   /// Stress at the end of a step that lasted `step`, and the internal forces there.
   SweepResult sweep(double step);
@@ -67,6 +71,8 @@ class Body {
   /// State component of a triangle (layout.hpp).
   [[nodiscard]] double state(int component, int row, int column, int triangle) const;
   [[nodiscard]] Stress stress(int row, int column, int triangle) const;
+  /// All round, of the quad's bulk viscosity, Pa; not part of stress().
+  [[nodiscard]] double viscous_stress(int row, int column) const;
   /// Equivalent plastic strain; of a core its compaction, the transverse compressive plastic strain; 0 for a material
   /// without plasticity.
   [[nodiscard]] double plastic_strain(int row, int column, int triangle) const;
@@ -82,6 +88,8 @@ class Body {
  private:
   [[nodiscard]] RowSweep row_view(int row) const;
   [[nodiscard]] QuadMass quad_mass(int row) const;
+  void resist(int row, RowSweep& view, SweepResult& result);
+  [[nodiscard]] double limit_of(double omega_squared) const;
   void place_nodes();
   void share_mass();
   void create_state();
@@ -93,6 +101,14 @@ class Body {
   const Kernels* kernels_;
   std::vector<Array> state_;  ///< by row of elements
   Array scratch_;
+
+  /// Of a row of elements.
+  struct Resistance {
+    BulkViscosity law;
+    double viscosity;  ///< Pa s, largest now
+    Array stress;      ///< Pa, of each quad; tension is positive
+  };
+  std::vector<Resistance> resistance_;  ///< empty without bulk viscosity
 };
 
 }  // namespace grainstep::fe

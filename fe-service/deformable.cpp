@@ -13,9 +13,19 @@
 
 namespace grainstep::fe {
 
+namespace {
+
+Body make_body(const scene::Structure& structure, const Measure& measure) {
+  Body body(make_mesh(structure), make_layers(structure), measure);
+  body.resist_volume(bulk_factors(structure));
+  return body;
+}
+
+}  // namespace
+
 Deformable::Deformable(const scene::Structure& structure, const scene::Guards& guards, const Measure& measure)
     : guards_(guards),
-      body_(make_mesh(structure), make_layers(structure), measure),
+      body_(make_body(structure, measure)),
       undeformed_step_(body_.stable_step()),
       stable_step_(undeformed_step_) {
   set_initial_velocity(structure, body_);
@@ -132,6 +142,7 @@ void Deformable::fill_report(const Velocities& before, const Velocities& at, con
   energy.set_kinetic(conserved_kinetic_energy(body_, before, at));
   energy.set_elastic(elastic);
   energy.set_plastic(plastic_work_);
+  energy.set_viscous(viscous_work_);
   energy.set_interface_work(until.work);
   wire::Momentum& momentum = *report_.mutable_momentum();
   const Vec2 linear = linear_momentum(body_, at);
@@ -164,6 +175,7 @@ void Deformable::internal_forces() {
   const SweepResult result = body_.sweep(step());
   ++steps_;
   plastic_work_ += result.plastic_work;
+  viscous_work_ += result.viscous_work;
   min_quality_ = result.min_quality;
   if (result.unconverged > 0) material_failed(body_, progress());
   if (!(min_quality_ >= guards_.element_quality())) check_quality(body_, guards_.element_quality(), progress());
@@ -171,8 +183,9 @@ void Deformable::internal_forces() {
 
 void Deformable::track_peaks(std::uint32_t substep) {
   const double time = window_length_ * (static_cast<double>(window_) + (substep + 1.0) / substeps_);
+  // Largest in size, with its sign: suction pulls the other way.
   const auto track = [time](double now, double& peak, double& peak_time) {
-    if (now <= peak) return;
+    if (std::abs(now) <= std::abs(peak)) return;
     peak = now;
     peak_time = time;
   };

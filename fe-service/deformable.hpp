@@ -81,6 +81,7 @@ class Deformable final : public WindowedStructure {
 
   Received received_;
   double plastic_work_ = 0.0;
+  double viscous_work_ = 0.0;  ///< J, of bulk viscosity
   double min_quality_ = 1.0;
   std::uint64_t steps_ = 0;
   double last_good_time_ = 0.0;

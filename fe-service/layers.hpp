@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "fe-service/bulk_viscosity.hpp"
 #include "fe-service/materials/material.hpp"
 
 namespace grainstep::fe {
@@ -14,6 +15,10 @@ namespace grainstep::fe {
     layers.push_back(make_material(structure, i));
   }
   return layers;
+}
+
+[[nodiscard]] inline BulkFactors bulk_factors(const scene::Structure& structure) {
+  return {structure.bulk_viscosity().linear(), structure.bulk_viscosity().quadratic()};
 }
 
 }  // namespace grainstep::fe

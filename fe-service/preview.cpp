@@ -12,21 +12,11 @@ namespace grainstep::fe {
 
 namespace {
 
-// Measured with bench_fe_kernel (AVX-512, one core); a layer that may flow is taken to do so everywhere.
-constexpr double kElasticSeconds = 1.0 / 200e6;
-constexpr double kPlasticSeconds = 1.0 / 80e6;
-constexpr double kCoreSeconds = 1.0 / 80e6;
-constexpr double kFoamSeconds = 1.0 / 80e6;
-
-double seconds_of(const Material& material) {
-  if (std::holds_alternative<Core>(material)) return kCoreSeconds;
-  return std::holds_alternative<Dh36>(material) ? kPlasticSeconds : kElasticSeconds;
-}
-
+/// A layer that may flow is taken to do so everywhere.
 double seconds_per_element_step(const Mesh& mesh, const std::vector<Material>& layers) {
   double sum = 0.0;
   for (const ElementRow& row : mesh.rows) {
-    sum += seconds_of(layers[row.layer]);
+    sum += traits_of(layers[row.layer]).seconds;
   }
   return sum / static_cast<double>(mesh.rows.size());
 }
@@ -44,19 +34,22 @@ Mesh one_row_per_layer(const Mesh& mesh) {
   return thin;
 }
 
-void preview_plate(const Mesh& mesh, const std::vector<Material>& layers, StructurePreview& found) {
-  const Body body(one_row_per_layer(mesh), layers, Axisymmetric{});
+void preview_plate(const Mesh& mesh, const std::vector<Material>& layers, const BulkFactors& bulk,
+                   StructurePreview& found) {
+  Body body(one_row_per_layer(mesh), layers, Axisymmetric{});
+  body.resist_volume(bulk);
   found.stable_step = body.stable_step();
   found.contact_mass = body.corners.mass[body.mesh().corner(mesh.middle_of_face())];
 }
 
 void preview_beam(const Mesh& mesh, const std::vector<Material>& layers, const Measure& measure,
-                  StructurePreview& found) {
+                  const BulkFactors& bulk, StructurePreview& found) {
   // All columns are alike: one is enough for the step.
   Mesh column = mesh;
   column.columns = 1;
   column.length = mesh.width;
-  const Body body(column, layers, measure);
+  Body body(column, layers, measure);
+  body.resist_volume(bulk);
   found.stable_step = body.stable_step();
   // The only column's two surface nodes have one triangle's neighbourhood each; inside the surface nodes have both.
   for (const Corner c : body.mesh().surface()) found.contact_mass += body.corners.mass[body.mesh().corner(c)];
@@ -70,9 +63,9 @@ void preview_deformable(const scene::Structure& structure, const Measure& measur
   found.element_size = mesh.width;
   found.memory_bytes = memory_bytes(mesh, layers);
   if (is_of_revolution(measure)) {
-    preview_plate(mesh, layers, found);
+    preview_plate(mesh, layers, bulk_factors(structure), found);
   } else {
-    preview_beam(mesh, layers, measure, found);
+    preview_beam(mesh, layers, measure, bulk_factors(structure), found);
   }
   found.preferred_step = kStepSafety * found.stable_step;
   found.seconds_per_element_step = seconds_per_element_step(mesh, layers);
@@ -85,8 +78,6 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
   check_measure(structure, measure);
   if (structure.layers().empty()) throw InputError("structure.layers: none given; at least one is needed");
   StructurePreview found;
-  found.yield_strength = structure.layers(0).yield_strength();
-  found.density = structure.layers(0).density();
   for (const scene::Layer& layer : structure.layers()) found.areal_mass += layer.density() * layer.thickness();
   if (structure.type() == scene::Structure::TYPE_RIGID) {
     wire::Ready ready;
@@ -111,7 +102,7 @@ FoamPreview preview_foam(const scene::Impactor& impactor, const FoamSetting& set
   found.longest_window = kFoamStepsPerWindow * found.preferred_step;
   found.contact_mass = heaviest_of_face(body);
   found.memory_bytes = memory_bytes(model.mesh, {model.foam});
-  found.seconds_per_element_step = kFoamSeconds;
+  found.seconds_per_element_step = Foam::kTraits.seconds;
   return found;
 }
 

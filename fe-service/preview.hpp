@@ -12,8 +12,6 @@ struct StructurePreview {
   std::uint64_t elements = 0;  ///< triangles; 0 for a rigid target
   std::uint64_t nodes = 0;
   double areal_mass = 0.0;      ///< m_b, kg/m^2, sum over the layers
-  double yield_strength = 0.0;  ///< of the first layer: sigma_Y of the dimensionless groups, Pa
-  double density = 0.0;         ///< of the first layer, kg/m^3
   double element_size = 0.0;    ///< m, side of a quad along the span
   double stable_step = 0.0;     ///< s, of the undeformed mesh, by the function that the run uses
   double preferred_step = 0.0;  ///< s

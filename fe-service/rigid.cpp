@@ -1,5 +1,7 @@
 #include "fe-service/rigid.hpp"
 
+#include <cmath>
+
 #include "base/error.hpp"
 #include "fe-service/initial_velocity.hpp"
 #include "participant/schedule.hpp"
@@ -102,7 +104,7 @@ void Rigid::step(Vec2 share, std::uint32_t k) {
   velocity_ += share.y / mass_;
   work_ += 0.5 * share.y * (before + velocity_);
   height_ += velocity_ * window_length_ / steps_;
-  if (-height_ <= peak_) return;
+  if (std::abs(height_) <= std::abs(peak_)) return;
   peak_ = -height_;
   peak_time_ = window_length_ * (static_cast<double>(window_) + (k + 1.0) / steps_);
 }

@@ -4,6 +4,7 @@
 
 #include "base/assert.hpp"
 #include "fe-service/kernel/kernel.hpp"
+#include "fe-service/materials/material.hpp"
 
 namespace grainstep::fe {
 
@@ -14,8 +15,9 @@ wire::Hello Structure::describe() const {
   hello.set_backend(std::string("grainstep-fe (") + available_kernels().front()->name + ")");
   hello.set_version(GRAINSTEP_VERSION);
   hello.set_dimension(2);
-  for (const char* capability : {"beam", "plate", "rigid", "plane_strain", "axisymmetric", "dh36", "elastic", "core"})
+  for (const char* capability : {"beam", "plate", "rigid", "plane_strain", "axisymmetric"})
     hello.add_capabilities(capability);
+  for (const std::string& material : layer_words()) hello.add_capabilities(material);
   hello.set_process(static_cast<std::uint64_t>(getpid()));
   return hello;
 }

@@ -1,11 +1,11 @@
 #include "orchestrator/check_command.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "orchestrator/fidelity.hpp"
 #include "orchestrator/memory.hpp"
 #include "orchestrator/preparation.hpp"
@@ -17,19 +17,15 @@ namespace {
 constexpr double mebibyte = 1024.0 * 1024.0;
 
 // A group that the scene has not is a dash.
-std::string number(double value) {
-  char out[32] = "-";
-  if (std::isfinite(value)) std::snprintf(out, sizeof out, "%.4g", value);
-  return out;
-}
+std::string group(double value) { return figure(value, 4); }
 
 void print_groups(const scene::Groups& g) {
-  std::printf("impulse number I_o       %s\n", number(g.impulse_number).c_str());
-  std::printf("areal mass ratio m_bar   %s\n", number(g.areal_mass_ratio).c_str());
-  std::printf("loading time ratio tau   %s\n", number(g.loading_time_ratio).c_str());
-  std::printf("width ratio a/L          %s\n", number(g.width_ratio).c_str());
-  std::printf("end                      %.4g s, t_bar %.4g, t_hat %s\n", g.end, g.end / g.reference_time,
-              number(g.end / g.slug_time).c_str());
+  std::printf("impulse number I_o       %s\n", group(g.impulse_number).c_str());
+  std::printf("areal mass ratio m_bar   %s\n", group(g.areal_mass_ratio).c_str());
+  std::printf("loading time ratio tau   %s\n", group(g.loading_time_ratio).c_str());
+  std::printf("width ratio a/L          %s\n", group(g.width_ratio).c_str());
+  std::printf("end                      %.4g s, t_bar %s, t_hat %s\n", g.end, group(g.end / g.reference_time).c_str(),
+              group(g.end / g.slug_time).c_str());
 }
 
 void print_plan(const StepPlan& plan) {

@@ -7,7 +7,7 @@
 #include "base/processor_time.hpp"
 #include "orchestrator/background_observer.hpp"
 #include "orchestrator/build_info.hpp"
-#include "orchestrator/interrupted.hpp"
+#include "orchestrator/participants.hpp"
 #include "orchestrator/recorder.hpp"
 #include "orchestrator/session.hpp"
 #include "orchestrator/summary.hpp"
@@ -27,6 +27,24 @@ std::vector<results::Text> texts(const Preparation& preparation) {
           {"/build/isa", "instruction set of the machine", build.isa}};
 }
 
+std::string status_of(const Ending& ending) {
+  if (ending.code == ExitCode::done) return "done";
+  return ending.code == ExitCode::interrupted ? "interrupted" : "failed";
+}
+
+using Json = nlohmann::ordered_json;
+
+std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+// A reason may quote a participant's log, which holds whatever bytes it was written. Messages and JSON take UTF-8 only.
+std::string as_utf8(const std::string& text) { return Json::parse(dumped(text, -1)).get<std::string>(); }
+
+void write(const Json& summary, const results::RunDirectory& directory) {
+  results::write_atomically(directory.summary(), dumped(summary, 2) + "\n");
+}
+
 /// The parts of a run that its end needs to know.
 class Run {
  public:
@@ -44,9 +62,12 @@ class Run {
         .dataset = "/scene/end", .meaning = {"s", "when the run is to end"}, .values = {p.groups.end}, .indices = {}});
     session_.introduce();
     plan_ = session_.prepare();
-    progress_.emplace(stdout, how_.progress, plan_->windows, plan_->window / p.groups.reference_time);
+    if (!p.plan) print_warnings(*plan_);  // an external side has told its steps only now
+    const double mass = hub_.impactor().ready.mass();
+    if (has_particles(p.scene) && mass > 0.0) groups_ = scene::groups(p.scene, mass);
+    progress_.emplace(stdout, how_.progress, Progress::Scale{plan_->windows, plan_->window, groups_.reference_time});
     recorder_.emplace(Recorder::Context{.scene = p.scene,
-                                        .groups = p.groups,
+                                        .groups = groups_,
                                         .plan = *plan_,
                                         .surface = hub_.structure().ready.surface(),
                                         .masses = {hub_.impactor().ready.mass(), hub_.structure().ready.mass()}},
@@ -60,35 +81,18 @@ class Run {
     try {
       go();
       return keep({});
-    } catch (const PeerError& error) {
-      std::string reason = error.what() + own_part();
-      if (how_.account_of) {
-        if (const std::string account = how_.account_of(error.peer()); !account.empty()) {
-          reason += "; " + account;
-        }
-      }
-      return abandon({ExitCode::peer, reason}, error.peer());
-    } catch (const InputError& error) {
-      return abandon({ExitCode::bad_input, error.what()});
-    } catch (const NumericalError& error) {
-      return abandon({ExitCode::numerical, error.what()});
-    } catch (const OutputError& error) {
-      return abandon({ExitCode::output, error.what()});
-    } catch (const Interrupted& error) {
-      return abandon({ExitCode::interrupted, error.what()});
+    } catch (...) {
+      return abandon(ending_of_current_exception());
     }
   }
 
-  [[nodiscard]] nlohmann::ordered_json summary_of(const Ending& ending) const {
-    const std::string status = ending.code == ExitCode::done          ? "done"
-                               : ending.code == ExitCode::interrupted ? "interrupted"
-                                                                      : "failed";
+  [[nodiscard]] Json summary_of(const Ending& ending) const {
     const std::chrono::duration<double> wall = transport::Clock::now() - started_;
-    return summary({.status = status,
+    return summary({.status = status_of(ending),
                     .reason = ending.reason,
                     .exit_code = static_cast<int>(ending.code),
                     .scene = how_.preparation.scene,
-                    .groups = how_.preparation.groups,
+                    .groups = groups_,
                     .plan = plan_,
                     .findings = recorder_ ? recorder_->findings() : Findings{},
                     .impactor = hub_.impactor().ready,
@@ -111,9 +115,19 @@ class Run {
     return text;
   }
 
-  Ending abandon(const Ending& ending, const std::string& lost = "") {
-    session_.abandon(ending.reason, lost);
-    return keep(ending);
+  [[nodiscard]] std::string account_of(const std::string& peer) const {
+    const std::string account = how_.account_of ? how_.account_of(peer) : "";
+    return account.empty() ? "" : "; " + account;
+  }
+
+  Ending abandon(Ending ending) {
+    try {
+      if (!ending.lost.empty()) ending.reason += own_part() + account_of(ending.lost);
+      ending.reason = as_utf8(ending.reason);
+    } catch (...) {  // what is known already has to do
+    }
+    session_.abandon(ending.reason, ending.lost);
+    return keep(std::move(ending));
   }
 
   // What was computed is kept, whatever the end; a first failure's reason is not hidden by that of writing.
@@ -127,9 +141,9 @@ class Run {
         add_backends();
         file_->flush();
       }
-    } catch (const OutputError& error) {
+    } catch (...) {
       if (ending.code == ExitCode::done) {
-        ending = {ExitCode::output, error.what()};
+        ending = ending_of_current_exception();
       }
     }
     return ending;
@@ -149,6 +163,7 @@ class Run {
   Session session_;
   transport::Clock::time_point started_ = transport::Clock::now();
   double processor_at_start_ = processor_seconds();
+  scene::Groups groups_ = how_.preparation.groups;  // of an external impactor's own mass, once it is known
   std::optional<StepPlan> plan_;
   std::optional<results::ResultsFile> file_;
   std::optional<Progress> progress_;
@@ -161,19 +176,34 @@ class Run {
 Ending conduct(Hub& hub, const Conduct& how) {
   Run run(hub, how);
   Ending ending = run.end();
-  const nlohmann::ordered_json summary = run.summary_of(ending);
   try {
-    results::write_atomically(how.directory.summary(), summary.dump(2) + "\n");
-  } catch (const OutputError& error) {
+    const Json summary = run.summary_of(ending);
+    write(summary, how.directory);
+    if (how.progress != Progress::Style::quiet) {
+      std::fputs(digest(summary).c_str(), stdout);
+      std::fflush(stdout);
+    }
+  } catch (...) {
     if (ending.code == ExitCode::done) {
-      ending = {ExitCode::output, error.what()};
+      ending = ending_of_current_exception();
     }
   }
-  if (how.progress != Progress::Style::quiet) {
-    std::fputs(digest(summary).c_str(), stdout);
-    std::fflush(stdout);
-  }
   return ending;
+}
+
+void write_summary_of(const Ending& ending, const Preparation& preparation, const results::RunDirectory& directory) {
+  write(summary({.status = status_of(ending),
+                 .reason = ending.reason,
+                 .exit_code = static_cast<int>(ending.code),
+                 .scene = preparation.scene,
+                 .groups = preparation.groups,
+                 .plan = std::nullopt,
+                 .findings = {},
+                 .impactor = {},
+                 .structure = {},
+                 .impactor_timing = {},
+                 .structure_timing = {}}),
+        directory);
 }
 
 }  // namespace grainstep::orchestrator

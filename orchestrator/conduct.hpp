@@ -5,19 +5,13 @@
 #include <functional>
 #include <string>
 
-#include "base/error.hpp"
+#include "orchestrator/ending.hpp"
 #include "orchestrator/hub.hpp"
 #include "orchestrator/preparation.hpp"
 #include "orchestrator/progress.hpp"
 #include "results/run_directory.hpp"
 
 namespace grainstep::orchestrator {
-
-/// How a run ended.
-struct Ending {
-  ExitCode code = ExitCode::done;
-  std::string reason;  ///< empty when done
-};
 
 struct Conduct {
   const Preparation& preparation;
@@ -28,7 +22,11 @@ struct Conduct {
   std::function<std::string(const std::string&)> account_of;
 };
 
-/// Writes everything in the directory, whatever happens. Does not throw for what can go wrong in a run.
+/// Writes everything in the directory, whatever happens, and throws nothing: an exception that nobody foresaw ends the
+/// run in the same order as every other one (both sides told, results flushed, summary.json written).
 [[nodiscard]] Ending conduct(Hub& hub, const Conduct& how);
+
+/// summary.json of a run that ended before its conversation began.
+void write_summary_of(const Ending& ending, const Preparation& preparation, const results::RunDirectory& directory);
 
 }  // namespace grainstep::orchestrator

@@ -11,19 +11,22 @@
 
 namespace grainstep::orchestrator {
 
-void EventLoop::add(int fd, Action action) { sources_.push_back({fd, std::move(action)}); }
+void EventLoop::add(int fd, Action action) { sources_.push_back({++last_id_, fd, std::move(action)}); }
 
 void EventLoop::add(const transport::Channel& channel) {
   GS_ASSERT(channel.wakeup() >= 0, "the orchestrator needs channels that can be polled");
-  sources_.push_back({channel.wakeup(), nullptr});
+  add(channel.wakeup(), nullptr);
 }
 
 void EventLoop::remove(int fd) {
-  for (Source& source : sources_) {
-    if (source.fd == fd) {
-      source.fd = -1;  // poll() passes over it; the place stays, because wait() may be walking through the list
-    }
-  }
+  std::erase_if(sources_, [fd](const Source& source) { return source.fd == fd; });
+}
+
+void EventLoop::act(std::uint64_t id) {
+  const auto source = std::ranges::find(sources_, id, &Source::id);
+  if (source == sources_.end() || !source->action) return;  // removed by an earlier action
+  const Action action = source->action;                     // it may remove itself
+  action();
 }
 
 void EventLoop::note_time() {
@@ -44,8 +47,10 @@ void EventLoop::wait(transport::Deadline deadline) {
   const auto left = std::chrono::ceil<milliseconds>(deadline - transport::Clock::now());
   const int timeout = static_cast<int>(std::clamp(left, milliseconds(0), milliseconds(1000)).count());
   std::vector<pollfd> fds;
+  std::vector<std::uint64_t> ids;
   for (const Source& source : sources_) {
     fds.push_back({.fd = source.fd, .events = POLLIN, .revents = 0});
+    ids.push_back(source.id);
   }
   const int ready = ::poll(fds.data(), fds.size(), timeout);
   if (ready < 0 && errno != EINTR) {
@@ -53,10 +58,7 @@ void EventLoop::wait(transport::Deadline deadline) {
   }
   note_time();
   for (std::size_t i = 0; ready > 0 && i < fds.size(); ++i) {
-    if (fds[i].revents != 0 && sources_[i].action) {
-      const Action action = sources_[i].action;  // it may add sources
-      action();
-    }
+    if (fds[i].revents != 0) act(ids[i]);
   }
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -15,11 +17,14 @@ class EventLoop {
  public:
   using Action = std::function<void()>;
 
-  /// `action` runs inside wait() whenever `fd` is readable; it must take what made it so. It may throw.
+  /// `action` runs inside wait() whenever `fd` is readable; it must take what made it so. It may throw, add and remove.
   void add(int fd, Action action);
 
-  /// Forgets `fd`; may be called by its own action.
+  /// Forgets `fd`, whose action does not run any more. To be called before `fd` is closed.
   void remove(int fd);
+
+  /// How many are waited for. poll() refuses more than a process may have open.
+  [[nodiscard]] std::size_t size() const { return sources_.size(); }
 
   /// A channel only wakes wait() up.
   void add(const transport::Channel& channel);
@@ -45,10 +50,14 @@ class EventLoop {
   void note_time();
 
   struct Source {
+    std::uint64_t id;  ///< a descriptor's number may be given to another before its turn comes
     int fd;
     Action action;
   };
+  void act(std::uint64_t id);
+
   std::vector<Source> sources_;
+  std::uint64_t last_id_ = 0;
   transport::Clock::time_point awake_ = transport::Clock::now();
   std::optional<Standstill> standstill_;
 };

@@ -12,9 +12,9 @@
 namespace grainstep::orchestrator {
 
 struct Deadlines {
-  double connect_s = 30.0;  ///< until both sides have said Hello
-  double step_s = 300.0;    ///< of silence from the side that is waited for
-  double stop_s = 2.0;      ///< for the answers to Stop after a failure
+  double connect_s = 120.0;  ///< until both sides have said Hello; a process that ends before is noticed by its end
+  double step_s = 300.0;     ///< of silence from the side that is waited for
+  double stop_s = 5.0;       ///< for the answers to Stop after a failure
 };
 
 /// Called between messages and waits; throws PeerError when a participant's process has ended before its time.

@@ -7,7 +7,7 @@ namespace grainstep::orchestrator {
 
 class Interrupted : public std::runtime_error {
  public:
-  Interrupted() : std::runtime_error("interrupted") {}
+  Interrupted() : std::runtime_error("ended from outside: Ctrl-C, SIGTERM or a closed terminal") {}
 };
 
 }  // namespace grainstep::orchestrator

@@ -35,8 +35,11 @@ LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, d
       next_forces_(start.first_window()) {
   for (const double x : position_) size_ = std::max(size_, std::abs(x));
   for (Extra* side : {&impactor_, &structure_}) {
-    side->next_report = start.first_window();
-    side->last_snapshot = start.snapshot_every() == 0;
+    const std::uint64_t first = start.first_window();
+    const participant::Due due = participant::due_at(start, first);
+    side->next_report = due.report ? first : next_due(first, true);
+    side->next_snapshot = due.snapshot ? first : next_due(first, false);
+    side->last_snapshot = side->next_snapshot > start.windows();
   }
 }
 

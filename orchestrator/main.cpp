@@ -46,5 +46,8 @@ int main(int argc, char** argv) {
     return fail(ExitCode::peer, error);
   } catch (const std::exception& error) {  // the system's refusals; caught, so that all that was made is cleaned away
     return fail(ExitCode::unforeseen, error);
+  } catch (...) {
+    std::fputs("grainstep: an exception without a text. Please report this.\n", stderr);
+    return static_cast<int>(ExitCode::unforeseen);
   }
 }

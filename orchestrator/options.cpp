@@ -1,9 +1,11 @@
 #include "orchestrator/options.hpp"
 
-#include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "base/error.hpp"
 #include "orchestrator/build_info.hpp"
+#include "participant/positive_number.hpp"
+#include "scene/suggest.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -22,9 +24,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--force", options.force, "Replace the run that is in the directory");
   run->add_flag("--quiet", options.quiet, "No progress, no summary on the terminal");
   run->add_option("--connect-deadline", options.deadlines.connect_s, "Seconds until both participants must be there")
-      ->check(CLI::PositiveNumber);
+      ->check(participant::positive_number());
   run->add_option("--step-deadline", options.deadlines.step_s, "Seconds of silence after which a participant is lost")
-      ->check(CLI::PositiveNumber);
+      ->check(participant::positive_number());
   run->add_option("--external", options.external, "A participant that somebody else starts: impactor or structure")
       ->check(CLI::IsMember({"impactor", "structure"}))
       ->allow_extra_args(false);
@@ -61,6 +63,56 @@ CLI::App* add_study(CLI::App& app, StudyOptions& options) {
   return study;
 }
 
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// CLI11 only says that a command is required, and that something was not expected.
+std::string explain(const CLI::App& app, const std::string& first) {
+  const auto commands = commands_of(app);
+  const std::string known = scene::join_words(commands);
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty()) {
+    if (first.empty()) return "a command is missing; one of " + known;
+    if (first.ends_with(".yaml")) return "a command is missing before '" + first + "'; one of " + known;
+    if (first.starts_with('-')) return "unknown option '" + first + "'; a command comes first: " + known;
+    const std::string near = scene::hint(first, commands);
+    return "unknown command '" + first + "'" + near + (near.empty() ? "; commands: " : " Commands: ") + known;
+  }
+  const CLI::App& command = *chosen.front();
+  if (const auto before = app.remaining(); !before.empty()) {
+    return "'" + before.front() + "' stands before the command '" + command.get_name() + "'; it belongs behind it";
+  }
+  const auto left = command.remaining();
+  if (left.empty()) return {};
+  const std::string& word = left.front();
+  if (!word.starts_with('-')) {
+    return "'" + word +
+           "' is one word too many: a value stands behind its option, and an option that may be repeated is "
+           "written before each value";
+  }
+  return "unknown option '" + word + "'" + scene::hint(word.substr(0, word.find('=')), options_of(command));
+}
+
+int refuse(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+  const auto chosen = app.get_subcommands();
+  const std::string program = "grainstep" + (chosen.empty() ? "" : " " + chosen.front()->get_name());
+  const std::string better = explain(app, first);
+  std::fprintf(stderr, "%s: %s\n%s --help tells what there is\n", program.c_str(),
+               better.empty() ? error.what() : better.c_str(), program.c_str());
+  return static_cast<int>(ExitCode::bad_input);
+}
+
 }  // namespace
 
 CommandLine parse(int argc, const char* const* argv) {
@@ -83,7 +135,8 @@ CommandLine parse(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    out.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    const bool answered = error.get_exit_code() == 0;  // --help, --version
+    out.exit_code = answered ? app.exit(error) : refuse(app, error, argc > 1 ? argv[1] : "");
     return out;
   }
   if (run->parsed()) {

@@ -31,6 +31,30 @@ bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& o
   return by_scene || std::ranges::find(options.external, name_of(role)) != options.external.end();
 }
 
+void check_connection(const scene::Scene& scene, const RunOptions& options) {
+  if (!options.listen.empty()) {
+    transport::ZmqOptions zmq;
+    zmq.curve_dir = options.curve_dir;
+    zmq.allow_plain_tcp = options.allow_plain_tcp;
+    transport::check_endpoint(options.listen, transport::Use::listen, zmq);
+    if (!transport::is_tcp(options.listen)) {
+      throw InputError("--listen " + options.listen +
+                       ": expected tcp://HOST:PORT; without --listen, participants connect over a local socket");
+    }
+    if (!is_external(wire::IMPACTOR, scene, options) && !is_external(wire::STRUCTURE, scene, options)) {
+      throw InputError("--listen " + options.listen +
+                       ": nobody would connect, both participants are started here; add --external impactor or "
+                       "--external structure");
+    }
+    if (!options.curve_dir.empty()) {
+      static_cast<void>(transport::load_keys(options.curve_dir, transport::Side::orchestrator));
+    }
+  } else if (!options.curve_dir.empty()) {
+    throw InputError("--curve-dir " + options.curve_dir.string() +
+                     ": nothing to encrypt, participants connect over a local socket; add --listen tcp://HOST:PORT");
+  }
+}
+
 bool has_particles(const scene::Scene& scene) {
   return scene::has_slug(scene) && scene.impactor().type() != scene::Impactor::TYPE_FOAM;
 }
@@ -61,7 +85,7 @@ void Participants::open(Side& side) {
   transport::ZmqOptions zmq;
   zmq.peer = name_of(side.role);
   const std::string endpoint = endpoint_of(side);
-  if (endpoint.starts_with("tcp")) {
+  if (transport::is_tcp(endpoint)) {
     zmq.curve_dir = options_.curve_dir;
     zmq.allow_plain_tcp = options_.allow_plain_tcp;
   }
@@ -71,7 +95,7 @@ void Participants::open(Side& side) {
 void Participants::start(const Side& side, Supervision& supervision, const results::RunDirectory& directory) const {
   const std::string& endpoint = side.channel->endpoint();
   if (side.external) {
-    const bool keys = endpoint.starts_with("tcp") && !options_.curve_dir.empty();
+    const bool keys = transport::is_tcp(endpoint) && !options_.curve_dir.empty();
     std::string command;
     for (const std::string& word : side.command) command += word + " ";
     std::printf("waiting %.0f s for the %s; start it with:\n  %s--connect %s%s%s\n", options_.deadlines.connect_s,

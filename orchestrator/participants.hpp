@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_directory.hpp"
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
 #include "orchestrator/supervision.hpp"
-#include "orchestrator/temporary_directory.hpp"
 #include "results/run_directory.hpp"
 #include "transport/zmq_channel.hpp"
 
@@ -16,6 +16,10 @@ namespace grainstep::orchestrator {
 
 /// By the scene or by the command line.
 [[nodiscard]] bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& options);
+
+/// InputError for connections that cannot be made, keys that cannot be used, and options that nobody would read: a slip,
+/// and about encryption a dangerous one.
+void check_connection(const scene::Scene& scene, const RunOptions& options);
 
 /// A slug is computed by grainstep-dem; what else loads a structure, by grainstep-fe in the impactor's role.
 [[nodiscard]] bool has_particles(const scene::Scene& scene);

@@ -2,7 +2,9 @@
 
 #include <cstdio>
 
+#include "base/number_text.hpp"
 #include "dem-service/preview.hpp"
+#include "dem-service/slug_model.hpp"
 #include "orchestrator/participants.hpp"
 #include "participant/schedule.hpp"
 #include "scene/load.hpp"
@@ -19,8 +21,9 @@ ImpactorPreview without_mass() {
 }
 
 ImpactorPreview of_slug(const scene::Scene& scene, bool mirror) {
-  const dem::ImpactorPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
+  const dem::SlugPreview slug = dem::preview(scene.impactor(), scene.symmetry(), scene.depth(), mirror);
   return {.particles = slug.particles,
+          .mass = slug.mass,
           .smallest = slug.smallest,
           .largest = slug.largest,
           .contact_mass = slug.contact_mass,
@@ -49,6 +52,19 @@ ImpactorPreview preview_impactor(const scene::Scene& scene, bool mirror) {
   return scene.impactor().type() == scene::Impactor::TYPE_FOAM ? of_foam(scene, mirror) : without_mass();
 }
 
+/// What a dent under one particle depends on, if its force acts at a point (docs/theory/contact.md).
+void point_contact_is_meant(const Preparation& p, std::vector<scene::Finding>& warnings) {
+  const scene::SurfaceContact& contact = p.scene.impactor().slug().surface_contact();
+  if (contact.spreading() != scene::SurfaceContact::SPREADING_POINT || !p.impactor || !p.structure) return;
+  const double elements = p.impactor->largest / p.structure->element_size;
+  if (!(p.structure->element_size > 0.0) || !(elements > dem::widest_point_contact)) return;
+  warnings.push_back({scene::Severity::warning, "impactor.slug.surface_contact.spreading",
+                      "point: a particle is as wide as " + rounded_text(elements) +
+                          " elements of the surface, and the dent under it will follow the mesh, with its plastic work "
+                          "and the rebound. Write chord (auto takes it from " +
+                          rounded_text(dem::widest_point_contact) + " on), or a coarser mesh"});
+}
+
 }  // namespace
 
 Preparation prepare(const RunOptions& options) {
@@ -62,12 +78,12 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
     throw InputError("--ranks " + std::to_string(options.ranks) +
                      ": an impactor without particles is one process; leave --ranks out");
   }
+  check_connection(out.scene, options);
   out.hash = scene::scene_hash(out.scene);
   out.yaml = scene::to_yaml(out.scene);
   for (scene::Finding& finding : scene::check_rules(out.scene)) {
     if (finding.severity == scene::Severity::warning) out.warnings.push_back(std::move(finding));
   }
-  out.groups = scene::groups(out.scene);
   const scene::Scene& scene = out.scene;
   const bool mirror = scene::has_mirror(scene);
   if (!is_external(wire::STRUCTURE, scene, options)) {
@@ -76,6 +92,9 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
   if (!is_external(wire::IMPACTOR, scene, options)) {
     out.impactor = preview_impactor(scene, mirror);
   }
+  point_contact_is_meant(out, out.warnings);
+  const bool weighed = out.impactor && out.impactor->mass > 0.0;
+  out.groups = scene::groups(scene, weighed ? std::optional(out.impactor->mass) : std::nullopt);
   if (out.impactor && out.structure) {
     out.plan = plan_steps(scene, out.groups.end,
                           {.stable = out.impactor->stable_step,
@@ -94,6 +113,13 @@ Preparation prepare(scene::Scene loaded, const RunOptions& options) {
 void print_warnings(const Preparation& preparation, const std::string& of) {
   for (const scene::Finding& warning : preparation.warnings) {
     std::fprintf(stderr, "grainstep: warning: %s%s: %s\n", of.c_str(), warning.path.c_str(), warning.text.c_str());
+  }
+  if (preparation.plan) print_warnings(*preparation.plan, of);
+}
+
+void print_warnings(const StepPlan& plan, const std::string& of) {
+  for (const std::string& warning : plan.warnings) {
+    std::fprintf(stderr, "grainstep: warning: %s%s\n", of.c_str(), warning.c_str());
   }
 }
 

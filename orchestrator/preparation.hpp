@@ -19,6 +19,7 @@ namespace grainstep::orchestrator {
 struct ImpactorPreview {
   std::uint64_t particles = 0;
   std::uint64_t elements = 0;            ///< of a foam projectile
+  double mass = 0.0;                     ///< kg, of its particles, of what is modelled; 0: it has none
   double smallest = 0.0, largest = 0.0;  ///< m, diameters of particles
   double contact_mass = 0.0;             ///< kg, the heaviest that touches at one point
   double contact_time = 0.0;             ///< s, between two of the smallest particles; 0: it has no contacts
@@ -50,6 +51,9 @@ struct Preparation {
 
 /// To stderr, a line each: check, run and study say the same before anything starts. `of`: which scene, in front.
 void print_warnings(const Preparation& preparation, const std::string& of = "");
+
+/// Those of a plan alone, where it was made only with what an external side said.
+void print_warnings(const StepPlan& plan, const std::string& of = "");
 
 /// Seconds that both sides compute, each on a core of its own; nothing where an external side does not say.
 struct Cost {

@@ -47,6 +47,16 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
+std::string moment_text(double seconds, double reference_time) {
+  char out[48];
+  if (std::isfinite(reference_time)) {
+    std::snprintf(out, sizeof out, "t_bar %.4f", seconds / reference_time);
+  } else {
+    std::snprintf(out, sizeof out, "t %.4f ms", 1e3 * seconds);
+  }
+  return out;
+}
+
 Progress::Style Progress::style_for(std::FILE* stream, bool quiet) {
   if (quiet) {
     return Style::quiet;
@@ -68,21 +78,21 @@ void Progress::tick(std::uint64_t window) {
 }
 
 void Progress::draw(std::uint64_t window) {
-  const double part = static_cast<double>(window) / static_cast<double>(windows_);
+  const double part = static_cast<double>(window) / static_cast<double>(scale_.windows);
   const double rate = rate_.per_second();
   const std::string left = rate > 0.0
-                               ? "about " + duration_text(static_cast<double>(windows_ - window) / rate) + " left"
+                               ? "about " + duration_text(static_cast<double>(scale_.windows - window) / rate) + " left"
                                : "time left not known yet";
-  const double t_bar = static_cast<double>(window) * t_bar_per_window_;
+  const std::string moment = moment_text(static_cast<double>(window) * scale_.window, scale_.reference_time);
   if (style_ == Style::bar) {
     const auto full = std::min(bar_width, static_cast<std::size_t>(part * bar_width));
     const std::string bar = std::string(full, '#') + std::string(bar_width - full, '.');
-    std::fprintf(stream_, "\r[%s] %5.1f%%  t_bar %.3f  %s\033[K", bar.c_str(), 100.0 * part, t_bar, left.c_str());
+    std::fprintf(stream_, "\r[%s] %5.1f%%  %s  %s\033[K", bar.c_str(), 100.0 * part, moment.c_str(), left.c_str());
     open_line_ = true;
   } else {
-    std::fprintf(stream_, "%5.1f%%  window %llu of %llu  t_bar %.3f  %s\n", 100.0 * part,
-                 static_cast<unsigned long long>(window), static_cast<unsigned long long>(windows_), t_bar,
-                 left.c_str());
+    std::fprintf(stream_, "%5.1f%%  window %llu of %llu  %s  %s\n", 100.0 * part,
+                 static_cast<unsigned long long>(window), static_cast<unsigned long long>(scale_.windows),
+                 moment.c_str(), left.c_str());
   }
   std::fflush(stream_);
 }

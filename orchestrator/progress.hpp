@@ -28,13 +28,21 @@ class Rate {
 /// "about 3 min 20 s", "about 12 s".
 [[nodiscard]] std::string duration_text(double seconds);
 
+/// A time of a run: "t_bar 0.3021", or "t 0.3021 ms" where the scene has no reference time (s).
+[[nodiscard]] std::string moment_text(double seconds, double reference_time);
+
 class Progress {
  public:
   enum class Style { quiet, lines, bar };
   [[nodiscard]] static Style style_for(std::FILE* stream, bool quiet);
 
-  Progress(std::FILE* stream, Style style, std::uint64_t windows, double t_bar_per_window)
-      : stream_(stream), style_(style), windows_(windows), t_bar_per_window_(t_bar_per_window) {}
+  /// `window` of so many windows, s; `reference_time`, s, as for moment_text().
+  struct Scale {
+    std::uint64_t windows;
+    double window;
+    double reference_time;
+  };
+  Progress(std::FILE* stream, Style style, const Scale& scale) : stream_(stream), style_(style), scale_(scale) {}
 
   void tick(std::uint64_t window);
   void finish();  ///< ends the bar's line
@@ -44,8 +52,7 @@ class Progress {
 
   std::FILE* stream_;
   Style style_;
-  std::uint64_t windows_;
-  double t_bar_per_window_;
+  Scale scale_;
   Rate rate_;
   transport::Clock::time_point drawn_ = transport::Clock::now();
   bool open_line_ = false;

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "ledger/observables.hpp"
+#include "orchestrator/progress.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::orchestrator {
@@ -137,6 +138,9 @@ void Recorder::remember(std::uint64_t window, const Pending& row, const ledger::
   findings_.momentum_error = std::max(findings_.momentum_error, balance.momentum_error);
   findings_.peak_deflection = ledger::find(*row.structure, ledger::observable::peak_deflection).value_or(0.0);
   findings_.peak_deflection_time = ledger::find(*row.structure, ledger::observable::peak_deflection_time).value_or(0.0);
+  if (const auto deflection = ledger::find(*row.structure, ledger::observable::deflection)) {
+    deflections_.push_back({.time = time_of(window), .deflection = *deflection, .load = row.handed_over.sizes});
+  }
   findings_.peak_core_compression = ledger::find(*row.structure, ledger::observable::peak_core_compression);
   findings_.peak_core_compression_time = ledger::find(*row.structure, ledger::observable::peak_core_compression_time);
   findings_.impactor_steps = row.impactor->timing().steps();
@@ -154,9 +158,15 @@ void Recorder::judge(std::uint64_t window, const Pending& row, const ledger::Bal
                         .element_quality = ledger::find(*row.structure, ledger::observable::element_quality),
                         .foam = scene_.impactor().type() == scene::Impactor::TYPE_FOAM});
   if (found) {
-    throw NumericalError("at window " + std::to_string(window) + " of " + std::to_string(plan_.windows) + " (t_bar " +
-                         std::to_string(time_of(window) / groups_.reference_time) + "): " + *found);
+    throw NumericalError("at window " + std::to_string(window) + " of " + std::to_string(plan_.windows) + " (" +
+                         moment_text(time_of(window), groups_.reference_time) + "): " + *found);
   }
+}
+
+Findings Recorder::findings() const {
+  Findings out = findings_;
+  out.rest = last_free_oscillation(deflections_);
+  return out;
 }
 
 void Recorder::snapshot(wire::Role side, wire::Snapshot snapshot) {

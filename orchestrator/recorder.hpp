@@ -5,10 +5,12 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "ledger/guards.hpp"
 #include "ledger/ledger.hpp"
 #include "ledger/load_history.hpp"
+#include "orchestrator/free_oscillation.hpp"
 #include "orchestrator/row.hpp"
 #include "orchestrator/step_observer.hpp"
 #include "orchestrator/step_plan.hpp"
@@ -26,8 +28,9 @@ struct Findings {
   double momentum_error = 0.0;                       ///< largest of the rows
   double transmitted = 0.0;                          ///< Pa s, at the last row
   std::optional<double> early_impulse;               ///< Pa s, between t_hat 0.05 and 0.3
-  double peak_deflection = 0.0;                      ///< m
+  double peak_deflection = 0.0;                      ///< m, with its sign
   double peak_deflection_time = 0.0;                 ///< s
+  std::optional<Oscillation> rest;                   ///< what the structure swings about once the load is over
   std::optional<double> peak_core_compression;       ///< of the core's thickness; nothing without a core
   std::optional<double> peak_core_compression_time;  ///< s
   std::uint64_t windows = 0;                         ///< seen
@@ -55,7 +58,8 @@ class Recorder final : public StepObserver {
 
   void finish() override;
 
-  [[nodiscard]] const Findings& findings() const { return findings_; }
+  /// So far.
+  [[nodiscard]] Findings findings() const;
 
  private:
   /// What a row waits for.
@@ -90,6 +94,7 @@ class Recorder final : public StepObserver {
   std::vector<double> profile_mark_;  // nodal impulse received up to the last profile
   transport::Clock::time_point flushed_;
   double unexplained_ = 0.0;  // J, largest of the rows
+  std::vector<DeflectionSample> deflections_;
   Findings findings_;
 };
 

@@ -54,7 +54,9 @@ void put_momentum(Row& row, const std::string& side, const ledger::Closure& clos
 Row series_row(const RowData& data, const scene::Groups& groups) {
   Row row;
   put(row, "/series/time", "s", "time since first contact", data.time);
-  put(row, "/series/t_bar", "", "t / (L sqrt(rho_m/sigma_Y))", data.time / groups.reference_time);
+  if (std::isfinite(groups.reference_time)) {
+    put(row, "/series/t_bar", "", "t / (L sqrt(rho_m/sigma_Y))", data.time / groups.reference_time);
+  }
   if (std::isfinite(groups.slug_time))
     put(row, "/series/t_hat", "", "slug time t v0 / H", data.time / groups.slug_time);
   put(row, "/series/mean_pressure", "Pa", "pressure averaged over the loaded width and the row's interval (4.4)",

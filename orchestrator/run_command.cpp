@@ -16,6 +16,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
+// For participants to end by themselves. Both waits end with the processes; only one that hangs uses them up.
+constexpr milliseconds patience_at_the_end{30'000};
+constexpr milliseconds patience_after_a_failure{200};
+
 results::RunDirectory directory_of(const RunOptions& options) {
   return results::RunDirectory(options.out.empty() ? "runs" / options.scene.scene.stem() : options.out);
 }
@@ -53,7 +57,8 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
     if (hub.impactor().introduced && hub.structure().introduced) {
       participants.close_doors();
     }
-    supervision.watch({.impactor = hub.impactor().finished, .structure = hub.structure().finished});
+    supervision.watch({.impactor = {hub.impactor().introduced, hub.impactor().finished},
+                       .structure = {hub.structure().introduced, hub.structure().finished}});
   });
   participants.start(supervision, directory);
   const Ending ending =
@@ -62,8 +67,27 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
                     .deadlines = options.deadlines,
                     .progress = Progress::style_for(stdout, options.quiet),
                     .account_of = [&supervision](const std::string& peer) { return supervision.account_of(peer); }});
-  supervision.end_all(milliseconds(ending.code == ExitCode::done ? 5000 : 200));
+  supervision.end_all(ending.code == ExitCode::done ? patience_at_the_end : patience_after_a_failure);
   return ending;
+}
+
+/// What nobody foresaw is the end of this run like every other one. Where nothing was computed yet and a user can mend
+/// it (a program that is not there), it is refused as before the run.
+Ending run_to_its_end(const RunOptions& options, const Preparation& preparation,
+                      const results::RunDirectory& directory) {
+  try {
+    return run_prepared(options, preparation, directory);
+  } catch (const InputError&) {
+    throw;
+  } catch (...) {
+    const Ending ending = ending_of_current_exception();
+    try {
+      write_summary_of(ending, preparation, directory);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "grainstep: no summary could be written: %s\n", error.what());
+    }
+    return ending;
+  }
 }
 
 }  // namespace
@@ -73,9 +97,10 @@ int run(const RunOptions& options) {
   print_warnings(preparation);
   require_memory(preparation, options.ranks, memory_of_machine());
   const results::RunDirectory directory = directory_of(options);
-  directory.prepare(options.force ? results::Existing::replace : results::Existing::refuse);
+  const results::DirectoryLock lock =
+      directory.prepare(options.force ? results::Existing::replace : results::Existing::refuse);
   announce(options, preparation, directory);
-  const Ending ending = run_prepared(options, preparation, directory);
+  const Ending ending = run_to_its_end(options, preparation, directory);
   if (ending.code != ExitCode::done) {
     std::fprintf(stderr, "grainstep: %s\n", ending.reason.c_str());
   }

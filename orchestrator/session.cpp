@@ -1,21 +1,16 @@
 #include "orchestrator/session.hpp"
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
 
-std::string number(double value) {  // a step of 1e-7 s is nothing to std::to_string
-  std::ostringstream out;
-  out.precision(4);
-  out << value;
-  return out.str();
-}
+constexpr int digits = 4;  // of times and steps, in messages
 
 }  // namespace
 
@@ -86,12 +81,14 @@ void Session::make_ready(Peer& peer, const wire::Setup& setup) {
   }
   if (!(peer.ready.stable_step() > 0.0) || !(peer.ready.preferred_step() > 0.0) ||
       !std::isfinite(peer.ready.preferred_step())) {
-    throw PeerError(peer.name(), "gives a stable step of " + number(peer.ready.stable_step()) + " s and prefers " +
-                                     number(peer.ready.preferred_step()) + " s; both must be above zero");
+    throw PeerError(peer.name(), "gives a stable step of " + rounded_text(peer.ready.stable_step(), digits) +
+                                     " s and prefers " + rounded_text(peer.ready.preferred_step(), digits) +
+                                     " s; both must be above zero");
   }
   if (peer.ready.preferred_step() > peer.ready.stable_step()) {
-    throw PeerError(peer.name(), "prefers a step of " + number(peer.ready.preferred_step()) +
-                                     " s, but is stable only up to " + number(peer.ready.stable_step()) + " s");
+    throw PeerError(peer.name(), "prefers a step of " + rounded_text(peer.ready.preferred_step(), digits) +
+                                     " s, but is stable only up to " + rounded_text(peer.ready.stable_step(), digits) +
+                                     " s");
   }
 }
 
@@ -197,10 +194,12 @@ void Session::abandon(const std::string& reason, const std::string& lost) noexce
             handler, [this] { return finished(); }, until));
       } catch (const PeerError& error) {
         lose(error.peer());
-      } catch (const std::runtime_error&) {  // an Error that crossed our Stop: it was that peer's last message
+      } catch (const InputError&) {      // an Error that crossed our Stop: it was that peer's last message
+      } catch (const NumericalError&) {  // the same, or a late row is beyond a limit
+      } catch (const OutputError&) {     // a late row cannot be written
       }
     }
-  } catch (...) {  // a second interrupt: no more waiting
+  } catch (...) {  // an interrupt, or the system refuses to wait: both were told, and that has to do
   }
 }
 

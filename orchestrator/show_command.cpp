@@ -1,6 +1,8 @@
 #include "orchestrator/show_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -12,6 +14,7 @@
 namespace grainstep::orchestrator {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string digest_of(const Json& facts, const std::filesystem::path& path) {
@@ -22,23 +25,73 @@ std::string digest_of(const Json& facts, const std::filesystem::path& path) {
   }
 }
 
-void print_progress(const Json& progress) {
-  std::printf("running: %.1f%%, t_bar %.3f, energy drift %.2e, momentum error %.1e\n",
-              100.0 * progress["progress"].get<double>(), progress["final_time"].get<double>(),
-              progress["energy_drift"].get<double>(), progress["momentum_error"].get<double>());
-  std::printf("last written %s ago; a run that is alive writes about every second once it steps\n",
-              duration_text(progress["seconds_since_written"].get<double>()).c_str());
+// A run that is alive is "running (process 1234 on node17)".
+std::string state_text(const Json& facts) {
+  const auto status = facts["status"].get<std::string>();
+  const auto process = facts["process"].get<std::string>();
+  if (status == "running") return process.empty() ? "running" : "running (" + process + ")";
+  if (status == "killed") return "ended without a summary: " + process + " was killed, or its machine went down";
+  return "without a summary, and nothing tells whether it runs";
+}
+
+void print_progress(const Json& facts) {
+  const Json& t_bar = facts["final_time"];
+  const std::string moment = t_bar.is_number()
+                                 ? moment_text(t_bar.get<double>(), 1.0)
+                                 : moment_text(facts["time"].get<double>(), std::numeric_limits<double>::quiet_NaN());
+  std::printf("%s\n", state_text(facts).c_str());
+  std::printf("%.1f%%, %s, energy drift %.2e, momentum error %.1e\n", 100.0 * facts["progress"].get<double>(),
+              moment.c_str(), facts["energy_drift"].get<double>(), facts["momentum_error"].get<double>());
+  if (facts.contains("seconds_since_written")) {
+    std::printf("last written %s ago%s\n", duration_text(facts["seconds_since_written"].get<double>()).c_str(),
+                facts["status"] == "killed" ? "" : "; a run that is alive writes about every second once it steps");
+  }
+}
+
+/// Runs below `root`, as far down as studies put them.
+std::vector<std::string> runs_below(const fs::path& root) {
+  constexpr int deepest = 3;
+  std::vector<std::string> found;
+  std::error_code error;
+  for (auto it = fs::recursive_directory_iterator(root, error); !error && it != fs::recursive_directory_iterator();
+       it.increment(error)) {
+    if (!it->is_directory(error)) continue;
+    if (results::RunDirectory(it->path()).holds_a_run()) {
+      found.push_back(it->path().string());
+      it.disable_recursion_pending();
+    } else if (it.depth() >= deepest) {
+      it.disable_recursion_pending();
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Where no run is.
+std::string what_is_there(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return "no such directory";
+  if (!fs::is_directory(path, error)) return "is a file; expected the directory of a run";
+  const auto runs = runs_below(path);
+  const std::string nearest = runs.empty() ? "" : ", e.g. grainstep show '" + runs.front() + "'";
+  const std::string count = std::to_string(runs.size());
+  if (fs::exists(path / "study.json", error) || fs::exists(path / "study.lock", error)) {
+    return "holds a study, not a run: its results are in table.csv, and " + count + " of its runs can be shown" +
+           nearest;
+  }
+  if (!runs.empty()) return "holds no run itself, but " + count + " below it" + nearest;
+  return "holds no run (no summary.json, no results.h5)";
 }
 
 }  // namespace
 
 void show(const ShowOptions& options) {
   const results::RunDirectory directory(options.directory);
-  if (!directory.holds_a_run()) {
-    throw InputError(options.directory.string() + ": holds no run (no summary.json, no results.h5)");
+  if (!directory.holds_a_run() && directory.occupation().state != results::Occupation::State::held) {
+    throw InputError(options.directory.string() + ": " + what_is_there(options.directory));
   }
   const bool ended = std::filesystem::exists(directory.summary());
-  const Json facts = ended ? read_summary(directory.summary()) : read_progress(directory.results());
+  const Json facts = ended ? read_summary(directory.summary()) : read_progress(directory);
   if (options.json) {
     std::printf("%s\n", facts.dump(2).c_str());
   } else if (ended) {

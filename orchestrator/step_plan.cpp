@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::orchestrator {
@@ -17,16 +17,11 @@ constexpr double round_off = 1e-9;
 
 // Equal steps must stay equal where they are needed, and a dent makes the structure's stable step shorter: this part of
 // the undeformed one is taken (docs/decisions/0006-lock-step.md).
-constexpr double equal_step_reserve = 0.5;
+constexpr double equal_step_reserve = 0.75;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& text) { throw InputError(where + ": " + text); }
 
-std::string number(double value) {
-  std::ostringstream out;
-  out.precision(4);
-  out << value;
-  return out.str();
-}
+std::string number(double value) { return rounded_text(value, 4); }
 
 void require_stable(const std::string& where, double step, double stable) {
   if (step > stable * (1.0 + round_off)) {
@@ -78,11 +73,14 @@ std::uint32_t steps_per_window(double value) {
   return static_cast<std::uint32_t>(count("steps", "steps per window", value, most_steps_per_window));
 }
 
-// The surface moves linearly in a window, so it is no longer than a contact, nor than either side allows; that also
-// bounds the window of a target that has no stable step of its own.
+// The surface moves linearly in a window, which must be short against a contact, and no longer than either side allows;
+// that also bounds the window of a target that has no stable step of its own.
+constexpr double windows_per_contact = 2.0;
+
 double longest_window(SideSteps impactor, SideSteps structure) {
   double longest = participant::no_step_limit;
-  for (const double limit : {impactor.contact_time, impactor.longest_window, structure.longest_window}) {
+  for (const double limit :
+       {impactor.contact_time / windows_per_contact, impactor.longest_window, structure.longest_window}) {
     if (limit > 0.0) longest = std::min(longest, limit);
   }
   return longest;
@@ -99,8 +97,7 @@ void choose_structure_steps(StepPlan& plan, double preferred, double longest) {
 // and an impulse that acts a part of a window late makes energy of that: no delay at all, then
 // (docs/decisions/0006-lock-step.md). A free rigid body answers as a whole, at once: the same.
 bool needs_equal_steps(SideSteps impactor, SideSteps structure) {
-  return structure.free_mass > 0.0 ||
-         (structure.contact_mass > 0.0 && impactor.contact_mass > structure.contact_mass);
+  return structure.free_mass > 0.0 || (structure.contact_mass > 0.0 && impactor.contact_mass > structure.contact_mass);
 }
 
 // Both steps `auto` where the impactor's is not given: then the shorter one is taken by both.

@@ -12,8 +12,8 @@ namespace grainstep::orchestrator {
 
 /// What a side says about its steps (wire.proto, Ready), or would say.
 struct SideSteps {
-  double stable = 0.0;        ///< s
-  double preferred = 0.0;     ///< s
+  double stable = 0.0;          ///< s
+  double preferred = 0.0;       ///< s
   double contact_mass = 0.0;    ///< kg
   double contact_time = 0.0;    ///< s, impactor; 0: no contacts
   double longest_window = 0.0;  ///< s; 0: no limit
@@ -28,9 +28,9 @@ struct StepPlan {
   bool structure_fixed = false;       ///< the scene fixed the structure's step
   double window = 0.0;                ///< s
   std::uint64_t windows = 0;
-  double report_every = 1.0;    ///< windows, on the mean (Start)
-  double snapshot_every = 0.0;  ///< windows; 0: none
-  double profile_every = 0.0;   ///< windows; 0: none
+  double report_every = 1.0;          ///< windows, on the mean (Start)
+  double snapshot_every = 0.0;        ///< windows; 0: none
+  double profile_every = 0.0;         ///< windows; 0: none
   std::vector<std::string> warnings;  ///< what of the scene's wishes cannot be had
 
   [[nodiscard]] bool equal_steps() const { return impactor_steps == 1 && structure_steps == 1; }

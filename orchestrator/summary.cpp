@@ -60,7 +60,12 @@ Json summary(const SummaryInput& in) {
   out["loading_time_ratio"] = number(g.loading_time_ratio);
   out["peak_deflection"] = in.plan ? number(f.peak_deflection / in.scene.structure().half_span()) : Json(nullptr);
   out["peak_deflection_time"] = in.plan ? number(f.peak_deflection_time / g.reference_time) : Json(nullptr);
+  out["peak_deflection_seconds"] = in.plan ? number(f.peak_deflection_time) : Json(nullptr);
+  const double half_span = in.scene.structure().half_span();
+  out["final_deflection"] = f.rest ? number(f.rest->mean / half_span) : Json(nullptr);
+  out["final_deflection_spread"] = f.rest ? number(f.rest->spread / half_span) : Json(nullptr);
   out["final_time"] = number(f.final_time / g.reference_time);
+  out["final_seconds"] = number(f.final_time);
   out["transmitted_impulse"] = in.plan ? number(f.transmitted / g.areal_momentum) : Json(nullptr);
   out["early_pressure"] = early_pressure(in);
   const auto absent = std::numeric_limits<double>::quiet_NaN();  // a monolithic beam has no core
@@ -84,17 +89,40 @@ Json summary(const SummaryInput& in) {
   return out;
 }
 
+namespace {
+
+// Over the half span: what a stiff structure deflects by does not fill four decimals.
+std::string deflection_text(const Json& value) {
+  const bool small = value.is_number() && value != 0.0 && std::abs(value.get<double>()) < 1e-3;
+  return text_of(value, small ? "%.3g" : "%.4f");
+}
+
+// In t_bar, or in ms where the structure has none.
+std::string moment(const Json& s, const char* key) {
+  const Json& t_bar = s.at(std::string(key) + "_time");
+  if (t_bar.is_number()) return "t_bar " + text_of(t_bar, "%.3f");
+  const Json seconds = s.value(std::string(key) + "_seconds", Json());
+  return seconds.is_number() ? text_of(1e3 * seconds.get<double>(), "%.4g") + " ms" : "-";
+}
+
+}  // namespace
+
 std::string digest(const Json& s) {
   std::string out = "status               " + s.at("status").get<std::string>();
   if (const auto reason = s.at("reason").get<std::string>(); !reason.empty()) {
     out += ": " + reason;
   }
   out += "\nimpulse number I_o   " + text_of(s.at("impulse_number"), "%.3g");
-  out += "\npeak deflection      " + text_of(s.at("peak_deflection"), "%.4f") + " w/L at t_bar " +
-         text_of(s.at("peak_deflection_time"), "%.3f") + " (run to " + text_of(s.at("final_time"), "%.3f") + ")";
+  out += "\npeak deflection      " + deflection_text(s.at("peak_deflection")) + " w/L at " +
+         moment(s, "peak_deflection") + " (run to " + moment(s, "final") + ")";
+  if (s.value("final_deflection", Json()).is_number()) {
+    out += "\nfinal deflection     " + deflection_text(s.at("final_deflection")) + " w/L, swings by +-" +
+           deflection_text(s.at("final_deflection_spread"));
+  }
   if (s.at("peak_core_compression").is_number()) {
-    out += "\ncore compression     " + text_of(s.at("peak_core_compression"), "%.3f") + " of its thickness at t_bar " +
-           text_of(s.at("peak_core_compression_time"), "%.3f");
+    out += "\ncore compression     " + text_of(s.at("peak_core_compression"), "%.3f") + " of its thickness";
+    if (s.at("peak_core_compression_time").is_number())
+      out += " at t_bar " + text_of(s.at("peak_core_compression_time"), "%.3f");
   }
   out += "\ntransmitted impulse  " + text_of(s.at("transmitted_impulse"), "%.4f") + " I_t/I0, early pressure " +
          text_of(s.at("early_pressure"), "%.3f") + " p/(rho_bar rho_s v0^2)";

@@ -29,7 +29,9 @@ struct SummaryInput {
 /// What a scene's results depend on besides the scene. Raise it with every change after which some scene gives other
 /// numbers than before (a law, a scheme, a default of the code's own): studies then compute again what they have
 /// (docs/decisions/0010-studies.md). Restructuring, speed and new kinds of scenes leave it alone.
-inline constexpr int results_version = 2;  // 2: energy and steps of foams
+// 2: energy and steps of foams. 3: contact over chords, windows of free targets, scales and impulses of what is there,
+// evenly spread rows.
+inline constexpr int results_version = 3;
 
 /// A hash as summary.json holds it: 16 hexadecimal digits, because a JSON number has no 64 bits.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A structure participant without any code of this project: a rigid mass on a spring, in plain Python.
 
 It shows all that a solver in another language needs: the frame around a message, the order of messages, the surface, the
@@ -22,7 +22,6 @@ import xxhash
 import zmq
 from zmq.utils.monitor import recv_monitor_message
 
-PROTOCOL_VERSION = 1
 HEADER = struct.Struct("<4sIQQ")  # magic, protocol version, sequence number, XXH3-64 of the payload
 HERE = pathlib.Path(__file__).resolve().parent
 EXIT_DONE, EXIT_PEER = 0, 4
@@ -48,9 +47,9 @@ class Orchestrator:
         self.wire, self.silence_s = wire, options.deadline
         self.sent = self.received = 0
         self.socket = zmq.Context.instance().socket(zmq.PAIR)
-        self.socket.setsockopt(zmq.LINGER, 2000)
+        self.socket.setsockopt(zmq.LINGER, 10000)
         self.socket.setsockopt(zmq.HEARTBEAT_IVL, 1000)
-        self.socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 2500)
+        self.socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, 30000)
         if options.curve_dir:
             self.show_key(pathlib.Path(options.curve_dir))
         self.monitor = self.socket.get_monitor_socket(zmq.EVENT_DISCONNECTED)
@@ -66,7 +65,7 @@ class Orchestrator:
         """send(hello=...): an Envelope with exactly one body."""
         payload = self.wire.Envelope(**body).SerializeToString()
         self.sent += 1
-        header = HEADER.pack(b"GSTP", PROTOCOL_VERSION, self.sent, xxhash.xxh3_64_intdigest(payload))
+        header = HEADER.pack(b"GSTP", self.wire.PROTOCOL_VERSION, self.sent, xxhash.xxh3_64_intdigest(payload))
         self.socket.send(header + payload)
 
     def receive(self):
@@ -87,7 +86,7 @@ class Orchestrator:
         payload = frame[HEADER.size:]
         self.received += 1
         found = (magic, version, sequence, checksum)
-        expected = (b"GSTP", PROTOCOL_VERSION, self.received, xxhash.xxh3_64_intdigest(payload))
+        expected = (b"GSTP", self.wire.PROTOCOL_VERSION, self.received, xxhash.xxh3_64_intdigest(payload))
         if found != expected:
             raise PeerError(f"found a frame with {found}, expected {expected}")
         envelope = self.wire.Envelope.FromString(payload)
@@ -148,7 +147,7 @@ class MassOnSpring:
         self.v = after
         self.x += self.step * after
         self.window += 1
-        if -self.x > self.peak:
+        if abs(self.x) > abs(self.peak):
             self.peak, self.peak_time = -self.x, self.window * self.step
         return at
 
@@ -189,7 +188,7 @@ class Participant:
 
     def introduce(self):
         wire = self.wire
-        self.talk.send(hello=wire.Hello(protocol=PROTOCOL_VERSION, role=wire.STRUCTURE, backend="mass on a spring (Python)",
+        self.talk.send(hello=wire.Hello(protocol=wire.PROTOCOL_VERSION, role=wire.STRUCTURE, backend="mass on a spring (Python)",
                                         version="1", dimension=2, capabilities=["external"], process=os.getpid()))
         setup = self.hear("setup")
         model = MassOnSpring(setup, self.options.stiffness)
@@ -243,6 +242,8 @@ def main():
     parser.add_argument("--deadline", type=float, default=60.0, help="longest silence of the orchestrator, s")
     parser.add_argument("--proto", default=HERE.parent / "proto", help="directory of grainstep/wire.proto")
     options = parser.parse_args()
+    if not options.connect.startswith(("ipc:///", "tcp://")):
+        parser.error(f"--connect {options.connect}: expected ipc:///PATH or tcp://HOST:PORT, as the orchestrator prints it")
     return Participant(load_messages(options.proto), options).serve()
 
 

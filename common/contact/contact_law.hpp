@@ -31,6 +31,11 @@ struct ContactLaw {
   }
 };
 
+/// kg, of a body of mass `mass` that meets a free one of `other` head-on; `other` 0: one that is held.
+[[nodiscard]] inline double reduced_mass(double mass, double other) {
+  return other > 0.0 ? mass * other / (mass + other) : mass;
+}
+
 /// The branch vector r n, from the touched point to the particle's centre or from one centre to the other. The law is
 /// evaluated with it instead of the unit normal n.
 struct Branch {
@@ -61,13 +66,14 @@ struct NormalForce {
 };
 
 /// Fn = Kn delta + m_eff gamma_n delta_dot (2.1), over r. `overlap` delta in m, positive; `relative` the velocity
-/// against the partner in m/s, so that delta_dot = -relative.n. Where a cut-off is asked for it takes the dashpot's
-/// share, so that the spring's energy stays.
+/// against the partner in m/s. `gain`: -delta_dot over relative.n, 1 where the overlap is measured along n; the force
+/// along n is what does the spring's work, so it is multiplied as well. Where a cut-off is asked for it takes the
+/// dashpot's share, so that the spring's energy stays.
 [[nodiscard]] inline NormalForce normal_force(const ContactLaw& law, const Branch& branch, double overlap,
-                                              const Vec3& relative, double effective_mass) {
+                                              const Vec3& relative, double effective_mass, double gain = 1.0) {
   const double damping =
       effective_mass * law.damping(effective_mass) * dot(relative, branch.vector) * branch.per_squared;
-  NormalForce force{law.normal_stiffness * overlap * branch.per_length, -damping};
+  NormalForce force{law.normal_stiffness * overlap * branch.per_length * gain, -damping * gain * gain};
   // Inside the structure both parts are divided by a negative length.
   if (law.tension_cutoff && force.total() * branch.length < 0.0) force.dashpot = -force.spring;
   return force;

@@ -66,16 +66,20 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
                                                      double dt, double weight, std::vector<Vec2>& nodal) {
   std::optional<std::string> failure;
   contacts_.clear();
+  footing_.clear();
   stored_normal_ = stored_tangential_ = 0.0;
   for (const Candidate& candidate : candidates_) {
     const int i = candidate.particle;
     const std::span<const std::uint32_t> segments(near_.data() + candidate.first, candidate.last - candidate.first);
-    const ClosestPoint at = surface.now().closest(place_of(settings_.shape, particles.position[i]), segments);
+    const Vec2 centre = place_of(settings_.shape, particles.position[i]);
+    const ClosestPoint at = surface.now().closest(centre, segments);
     if (at.distance < particles.radius[i]) {
       if (at.distance < -2.0 * particles.radius[i] && !failure) failure = tunnelled(settings_, particles, i, at);
-      touch(particles, surface, i, at, dt);
+      const Foot foot = settings_.chord ? footing_.over_chord(surface, centre, particles.radius[i], segments, at)
+                                        : Footing::at_point(at);
+      touch(particles, surface, i, foot, dt);
       const Contact& contact = contacts_.back();
-      surface.now().spread(-(settings_.whole * weight) * contact.plane.in_plane(contact.total), at, nodal);
+      footing_.give(surface, foot, -(settings_.whole * weight) * contact.plane.in_plane(contact.total), nodal);
     } else {
       particles.spring[i] = {};
     }
@@ -83,22 +87,23 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
   return failure;
 }
 
-void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface& surface, int i,
-                            const ClosestPoint& at, double dt) {
+void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface& surface, int i, const Foot& foot,
+                            double dt) {
+  const ClosestPoint& at = foot.at;
   const ContactLaw law = law_of(settings_.law, particles, i);
   const double radius = particles.radius[i];
   const double overlap = radius - at.distance;
   const Meridian plane = meridian_of(settings_.shape, particles.position[i]);
   const Vec3 normal = plane.in_space(at.normal);
   const Branch branch = branch_along(normal, at.distance, radius);
-  const Vec3 relative =
-      vector_of(particles.velocity[i]) - plane.in_space(surface.now().interpolate(surface.velocity(), at));
-  const NormalForce push = normal_force(law, branch, overlap, relative, particles.mass[i]);
+  const Vec3 relative = vector_of(particles.velocity[i]) - plane.in_space(footing_.velocity(surface, foot));
+  const double mass = reduced_mass(particles.mass[i], settings_.free_mass);
+  const NormalForce push = normal_force(law, branch, overlap, relative, mass, foot.gain);
 
   Vec3 drag;
   Vec3 torque;
   if (law.friction > 0.0 && law.tangential_stiffness > 0.0) {
-    const double lever = settings_.lever_is_radius ? radius : branch.length;
+    const double lever = settings_.lever_is_radius ? radius : foot.is_point() ? branch.length : foot.lever;
     Vec3 spring = turned_into_tangent_plane(particles.spring[i], normal, round_off * radius);
     spring += slip_rate(branch, relative, lever, vector_of(particles.spin[i])) * dt;
     spring -= dot(spring, branch.vector) * branch.per_squared * branch.vector;
@@ -110,7 +115,7 @@ void SurfaceContacts::touch(const ParticleArrays& particles, const MovingSurface
   stored_normal_ += 0.5 * law.normal_stiffness * overlap * overlap;
   largest_overlap_ = std::max(largest_overlap_, overlap / (2.0 * radius));
   const Vec3 total = push.total() * branch.vector + drag;
-  contacts_.push_back({i, at, plane, push.dashpot * branch.vector, drag, total, torque});
+  contacts_.push_back({i, foot, plane, push.dashpot * branch.vector, drag, total, torque});
 }
 
 void SurfaceContacts::apply(const ParticleArrays& particles) const {
@@ -123,7 +128,7 @@ void SurfaceContacts::apply(const ParticleArrays& particles) const {
 SurfaceSide SurfaceContacts::surface_side(const MovingSurface& surface) const {
   SurfaceSide side;
   for (const Contact& contact : contacts_) {
-    const Vec3 velocity = contact.plane.in_space(surface.now().interpolate(surface.velocity(), contact.at));
+    const Vec3 velocity = contact.plane.in_space(footing_.velocity(surface, contact.foot));
     side.power += dot(contact.total, velocity);
     side.dashpot += dot(contact.dashpot, velocity);
     side.tangential += dot(contact.tangential, velocity);

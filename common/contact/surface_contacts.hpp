@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "contact/contact_law.hpp"
+#include "contact/footing.hpp"
 #include "contact/interface_ledger.hpp"
 #include "contact/meridian.hpp"
 #include "contact/moving_surface.hpp"
@@ -27,6 +28,8 @@ struct SurfaceContactSettings {
   Shape shape = Shape::extruded;
   double whole = 1.0;  ///< reactions are multiplied by it: full circle over slice
   bool lever_is_radius = false;
+  double free_mass = 0.0;         ///< kg, of a free rigid body behind the surface, as a particle meets it; 0: held
+  bool chord = false;             ///< contacts act over the chord that the overlap cuts, else at the closest point
   double largest_radius = 0.0;    ///< m
   double particle_margin = 0.0;   ///< m a particle may move between two rebuilds
   double surface_margin = 0.0;    ///< m a node may move between two rebuilds
@@ -74,13 +77,12 @@ class SurfaceContacts {
   };
   struct Contact {
     int particle;
-    surface::ClosestPoint at;
+    Foot foot;
     Meridian plane;
     surface::Vec3 dashpot, tangential, total, torque;  ///< on the particle
   };
 
-  void touch(const ParticleArrays& particles, const MovingSurface& surface, int i, const surface::ClosestPoint& at,
-             double dt);
+  void touch(const ParticleArrays& particles, const MovingSurface& surface, int i, const Foot& foot, double dt);
   [[nodiscard]] SurfaceSide surface_side(const MovingSurface& surface) const;
 
   SurfaceContactSettings settings_;
@@ -88,6 +90,7 @@ class SurfaceContacts {
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> near_;
   std::vector<Contact> contacts_;
+  Footing footing_;
   InterfaceLedger ledger_;
   ParticleSide particle_side_;
   double stored_normal_ = 0.0;

@@ -15,6 +15,7 @@ void ImpulseSums::add(std::span<const double> impulse) {
   }
   if (magnitude > 0.0) ++sums_.acting;
   sums_.peak = std::max(sums_.peak, magnitude);
+  sums_.sizes += magnitude;
 }
 
 }  // namespace grainstep::ledger

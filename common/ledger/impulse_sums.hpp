@@ -16,6 +16,7 @@ struct HandedOver {
   Vector latest{};           ///< window n alone
   std::uint64_t acting = 0;  ///< windows up to n in which there was any impulse
   double peak = 0.0;         ///< largest sum over nodes of |impulse| of any window up to n
+  double sizes = 0.0;        ///< sum of these sums: it never falls
 
   [[nodiscard]] Vector total() const { return {before[0] + latest[0], before[1] + latest[1], before[2] + latest[2]}; }
 };

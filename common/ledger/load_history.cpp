@@ -32,9 +32,9 @@ void LoadHistory::add(std::uint64_t window, std::span<const double> impulse) {
     total_[i] += impulse[i];
     latest_[i] = impulse[i];
   }
-  const double normal = surface_.normal_impulse(impulse);
-  normal_total_ += normal;
-  transmitted_ = (normal_total_ - still_to_come() * normal) / loaded_area_;
+  const double on_face = surface_.impulse_on_face(impulse);
+  face_total_ += on_face;
+  transmitted_ = (face_total_ - still_to_come() * on_face) / loaded_area_;
   for (std::size_t i = 0; i < instants_.size(); ++i) {
     if (time_before < instants_[i] && instants_[i] <= time_) {
       const double part = (instants_[i] - time_before) / (time_ - time_before);

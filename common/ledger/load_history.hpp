@@ -48,7 +48,7 @@ class LoadHistory {
   std::uint64_t window_ = 0;
   double time_ = 0.0;
   double transmitted_ = 0.0;
-  double normal_total_ = 0.0;
+  double face_total_ = 0.0;
   std::vector<double> total_;
   std::vector<double> latest_;
   std::vector<double> instants_;

@@ -101,10 +101,13 @@ std::vector<double> SurfaceLoad::impulse_per_area(std::span<const double> impuls
   return out;
 }
 
-double SurfaceLoad::normal_impulse(std::span<const double> impulse) const {
+double SurfaceLoad::impulse_on_face(std::span<const double> impulse) const {
   double sum = 0.0;
   for (const Segment& segment : segments_) {
-    sum += pressed(segment, impulse);
+    if (!segment.of_loaded_face()) continue;
+    double pressing = 0.0;
+    for (int k = 0; k < 2; ++k) pressing -= segment.share[k][1] * impulse[2 * segment.node[k] + 1];
+    sum += pressing;
   }
   return sum;
 }

@@ -32,8 +32,10 @@ class SurfaceLoad {
   /// `impulse`: nodes x 2, N s.
   [[nodiscard]] std::vector<double> impulse_per_area(std::span<const double> impulse) const;
 
-  /// Sum over segments of the impulse normal to the undeformed surface, N s, positive where pressed.
-  [[nodiscard]] double normal_impulse(std::span<const double> impulse) const;
+  /// What presses on the loaded face, N s: the impulse along -x2 over the segments whose undeformed outward normal
+  /// points to the side of +x2. What touches the end faces around its corners, and friction along it, is none of it:
+  /// where nothing else is touched this is what the momentum ledger calls the interface's.
+  [[nodiscard]] double impulse_on_face(std::span<const double> impulse) const;
 
  private:
   struct Segment {
@@ -45,7 +47,9 @@ class SurfaceLoad {
     double area;       // m^2
     double weight[2];  // in proportion to the integral of each node's shape function over the area
     [[nodiscard]] double seen_along(int axis, int k) const { return weight[k] * std::abs(normal[axis]); }
+    [[nodiscard]] bool of_loaded_face() const { return normal[1] > round_off; }
   };
+  static constexpr double round_off = 1e-9;  // of the normal of an end face that is not quite upright
   enum class Shape { extruded, revolved };
   SurfaceLoad(const wire::Surface& surface, Shape shape, double depth);
   static void measure(Segment& segment, const double (&radius)[2], Shape shape, double depth);

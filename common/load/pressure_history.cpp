@@ -10,6 +10,7 @@ namespace grainstep::load {
 namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
 double end_of(const scene::RectangularPulse& pulse) { return pulse.has_duration() ? pulse.duration() : forever; }
 
@@ -22,7 +23,10 @@ double pressure_at(const scene::RectangularPulse& pulse, double time) {
 }
 
 Moments moments(const scene::RectangularPulse& pulse) {
-  return {pulse.pressure() * end_of(pulse), 0.5 * end_of(pulse)};
+  return {.impulse = pulse.pressure() * end_of(pulse),
+          .mean_time = 0.5 * end_of(pulse),
+          .onset = pulse.pressure() != 0.0 ? 0.0 : never,
+          .end = end_of(pulse)};
 }
 
 double impulse(const scene::ExponentialPulse& pulse, double from, double to) {
@@ -37,7 +41,10 @@ double pressure_at(const scene::ExponentialPulse& pulse, double time) {
 }
 
 Moments moments(const scene::ExponentialPulse& pulse) {
-  return {pulse.peak() * pulse.decay_time(), pulse.decay_time()};
+  return {.impulse = pulse.peak() * pulse.decay_time(),
+          .mean_time = pulse.decay_time(),
+          .onset = pulse.peak() != 0.0 ? 0.0 : never,
+          .end = forever};
 }
 
 /// A straight piece of a table.
@@ -72,9 +79,14 @@ double pressure_at(const scene::TabulatedPulse& table, double time) {
 
 Moments moments(const scene::TabulatedPulse& table) {
   Moments sum;
+  sum.onset = sum.end = never;
   double moment = 0.0;
   for (int k = 0; k + 1 < table.time_size(); ++k) {
     const Piece p = piece(table, k);
+    if (p.first != 0.0 || p.last != 0.0) {
+      if (!(sum.onset <= p.start)) sum.onset = p.start;
+      sum.end = p.end;
+    }
     const double width = p.end - p.start;
     sum.impulse += 0.5 * (p.first + p.last) * width;
     moment += width / 6.0 * (p.start * (2.0 * p.first + p.last) + p.end * (p.first + 2.0 * p.last));

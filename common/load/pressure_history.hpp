@@ -16,6 +16,8 @@ namespace grainstep::load {
 struct Moments {
   double impulse = 0.0;    ///< I0, integral of p, Pa s; infinite where it never ends
   double mean_time = 0.0;  ///< integral of t p over I0, s; not finite where I0 is zero or infinite
+  double onset = 0.0;      ///< first instant at which the pressure is not zero, s; not a number where it always is
+  double end = 0.0;        ///< from then on it is zero again, s; infinite where it never is
 };
 [[nodiscard]] Moments moments(const scene::Pressure& pressure);
 

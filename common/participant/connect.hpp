@@ -16,7 +16,7 @@ namespace grainstep::participant {
 struct ConnectOptions {
   std::string endpoint;                  ///< "ipc:///path" or "tcp://host:port"
   std::filesystem::path curve_dir = {};  ///< participant.key and orchestrator.pub (transport/curve.hpp); empty: plain
-  double connect_deadline_s = 30.0;
+  double connect_deadline_s = 120.0;
   bool allow_plain_tcp = false;
 };
 

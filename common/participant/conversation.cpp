@@ -2,19 +2,14 @@
 
 #include <unistd.h>
 
-#include <cstdio>
-
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "base/processor_time.hpp"
 
 namespace grainstep::participant {
 namespace {
 
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g s", seconds);
-  return text;
-}
+std::string seconds_text(double seconds) { return rounded_text(seconds) + " s"; }
 
 double seconds_of(transport::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 

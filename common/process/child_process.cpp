@@ -16,31 +16,13 @@
 #include <map>
 #include <system_error>
 
+#include "base/descriptor.hpp"
 #include "base/error.hpp"
 
 namespace grainstep::process {
 namespace {
 
 [[noreturn]] void system_failure(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
-
-/// Closes on the way out.
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(); }
-  [[nodiscard]] int get() const noexcept { return value_; }
-  void close() noexcept {
-    if (value_ >= 0) {
-      ::close(value_);
-    }
-    value_ = -1;
-  }
-
- private:
-  int value_;
-};
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
@@ -227,6 +209,7 @@ std::optional<int> ChildProcess::exit_code() const {
 }
 
 bool ChildProcess::is_stopped() const {
+  if (status_) return false;
   siginfo_t info{};
   const bool told = ::waitid(P_PID, static_cast<id_t>(id_), &info, WSTOPPED | WNOHANG | WNOWAIT) == 0;
   return told && info.si_pid == id_;

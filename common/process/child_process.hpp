@@ -43,6 +43,9 @@ class ChildProcess {
   /// Waits for its end; false when it still runs after that time.
   [[nodiscard]] bool wait(std::chrono::milliseconds longest);
 
+  /// Whether a signal has stopped it (SIGSTOP, SIGTSTP) and none has let it go on.
+  [[nodiscard]] bool is_stopped() const;
+
   /// SIGTERM to the group, without waiting.
   void ask_to_end() const noexcept;
   /// SIGTERM to the group, SIGKILL to what is left of it after `grace`; returns when the child is reaped.
@@ -57,7 +60,6 @@ class ChildProcess {
 
  private:
   void start(const Command& command);
-  [[nodiscard]] bool is_stopped() const;  ///< by a signal; what was asked stays to be told again
   void signal_group(int signal) const noexcept;
   void reap();
 

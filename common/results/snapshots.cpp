@@ -18,9 +18,9 @@ std::size_t columns_of(unsigned components) { return components == 1 ? 0 : compo
 Snapshots::Snapshots(const RunDirectory& directory, ResultsFile& file)
     : directory_(directory),
       file_(file),
-      particles_{.name = "particles", .collection = vtk::TimeSeries(directory.path() / "particles.pvd")},
-      impactor_{.name = "impactor", .collection = vtk::TimeSeries(directory.path() / "impactor.pvd")},
-      structure_{.name = "structure", .collection = vtk::TimeSeries(directory.path() / "structure.pvd")} {}
+      particles_{.name = "particles", .collection = vtk::TimeSeries(directory.series("particles"))},
+      impactor_{.name = "impactor", .collection = vtk::TimeSeries(directory.series("impactor"))},
+      structure_{.name = "structure", .collection = vtk::TimeSeries(directory.series("structure"))} {}
 
 void Snapshots::add_arrays(const std::string& group, double time, const wire::Snapshot& snapshot) {
   file_.add(

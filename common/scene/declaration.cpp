@@ -3,7 +3,7 @@
 #include <cctype>
 
 #include "base/assert.hpp"
-#include "scene/number_text.hpp"
+#include "base/number_text.hpp"
 #include "scene/suggest.hpp"
 
 namespace grainstep::scene {
@@ -99,6 +99,19 @@ std::string range_text(const options::Key& key) {
   if (key.has_below()) bounds.push_back("below " + number_text(key.below()));
   if (key.has_max()) bounds.push_back("at most " + number_text(key.max()));
   return join_words(bounds);
+}
+
+std::string usual_range(const options::Key& key) {
+  if (!key.has_usual_from() && !key.has_usual_to()) return {};
+  const std::string from = prefixed_text(key.usual_from(), key.unit());
+  const std::string to = prefixed_text(key.usual_to(), key.unit());
+  if (!key.has_usual_to()) return "at least " + from;
+  return key.has_usual_from() ? from + " to " + to : "at most " + to;
+}
+
+std::string usual_sentence(const options::Key& key) {
+  const std::string range = usual_range(key);
+  return range.empty() ? range : " Usual: " + range + ".";
 }
 
 }  // namespace grainstep::scene

@@ -40,4 +40,10 @@ struct Word {
 /// "above 0, at most 1", or an empty string.
 [[nodiscard]] std::string range_text(const options::Key& key);
 
+/// "20 MPa to 5 GPa", "at most 2", or an empty string: where a value needs no second look.
+[[nodiscard]] std::string usual_range(const options::Key& key);
+
+/// " Usual: 20 MPa to 5 GPa." for documents, or an empty string.
+[[nodiscard]] std::string usual_sentence(const options::Key& key);
+
 }  // namespace grainstep::scene

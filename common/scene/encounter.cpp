@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number_text.hpp"
 #include "scene/groups.hpp"
-#include "scene/number_text.hpp"
 #include "scene/sizes.hpp"
 
 namespace grainstep::scene {
@@ -18,31 +18,52 @@ void slug_moves(const Scene& scene, Findings& findings) {
   findings.push_back({Severity::warning, "impactor.slug.speed", "a slug at rest: nothing will hit the structure"});
 }
 
-void slug_is_no_wider(const Scene& scene, Findings& findings) {
-  const double half_width = scene.impactor().slug().half_width();
-  const double half_span = scene.structure().half_span();
-  if (half_width <= half_span) return;
-  findings.push_back({Severity::warning, "impactor.slug.half_width",
-                      "the slug (" + metres(half_width) + ") is wider than the structure (structure.half_span is " +
-                          metres(half_span) + "): what passes beside it loads nothing"});
+/// How much of the slug flies past the undeformed structure. An oblique one comes down where it is longer by
+/// 1/cos(angle) and further on, by the way that its leading face, which rests on its lower edge, still has to go.
+double share_that_passes_by(const Scene& scene) {
+  const Slug& slug = scene.impactor().slug();
+  const double end = scene.structure().half_span();
+  if (dimension(scene) == 3) {
+    const double met = std::min(1.0, end / slug.half_width());
+    return 1.0 - met * met;
+  }
+  const double reach = slug.half_width() / std::cos(slug.angle());
+  const double middle =
+      slug.offset() + (slug.stand_off() + slug.half_width() * std::sin(slug.angle())) * std::tan(slug.angle());
+  const double met = std::min(middle + reach, end) - std::max(middle - reach, -end);
+  return 1.0 - std::max(met, 0.0) / (2.0 * reach);
 }
 
-/// A slug at an angle moves sideways as it comes down; about that nothing is said.
-void slug_is_above_the_structure(const Scene& scene, Findings& findings) {
+void slug_meets_the_structure(const Scene& scene, Findings& findings) {
+  constexpr double noticed = 0.005;
+  const double beside = share_that_passes_by(scene);
+  if (beside < noticed) return;
+  const Slug& slug = scene.impactor().slug();
+  const std::string key = slug.offset() != 0.0 ? "offset" : slug.angle() > 0.0 ? "angle" : "half_width";
+  findings.push_back({Severity::warning, "impactor.slug." + key,
+                      "about " + rounded_text(std::round(100.0 * beside)) + "% of the slug (half width " +
+                          metres(slug.half_width()) + ") flies past the structure (structure.half_span is " +
+                          metres(scene.structure().half_span()) + ") and loads nothing"});
+}
+
+/// Whether all of it flies past. A slug at an angle moves sideways as it comes down: about that nothing is known
+/// exactly.
+bool slug_is_beside_the_structure(const Scene& scene, Findings& findings) {
   const Slug& slug = scene.impactor().slug();
   const double nearest = std::abs(slug.offset()) - slug.half_width();
   const double half_span = scene.structure().half_span();
-  if (slug.angle() > 0 || nearest < half_span) return;
+  if (slug.angle() > 0 || nearest < half_span) return false;
   findings.push_back({Severity::error, "impactor.slug.offset",
                       "found " + metres(slug.offset()) + ": the slug begins " + metres(nearest) +
                           " from mid-span and would fly past the structure, which ends at " + metres(half_span)});
+  return true;
 }
 
 /// As far as the slug alone decides: the structure may come to meet it.
 void slug_arrives(const Scene& scene, Findings& findings) {
   if (scene.structure().initial_velocity_size() > 0) return;
   const Groups g = groups(scene);
-  if (g.arrival < g.end) return;
+  if (!(g.arrival >= g.end)) return;  // nor where the end is not known
   findings.push_back({Severity::error, "impactor.slug.stand_off",
                       "found " + metres(scene.impactor().slug().stand_off()) + ": the slug would arrive after " +
                           rounded_text(g.arrival) + " s, but the run ends at " + rounded_text(g.end) +
@@ -108,8 +129,7 @@ void contact_turns_particles_round(const Scene& scene, Findings& findings) {
 void check_encounter(const Scene& scene, Findings& findings) {
   const bool foam = scene.impactor().type() == Impactor::TYPE_FOAM;
   if (!foam) {
-    slug_is_no_wider(scene, findings);
-    slug_is_above_the_structure(scene, findings);
+    if (!slug_is_beside_the_structure(scene, findings)) slug_meets_the_structure(scene, findings);
     slug_moves(scene, findings);
     contact_turns_particles_round(scene, findings);
     slice_reaches_the_axis(scene, findings);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "scene/foam.hpp"
-#include "scene/number_text.hpp"
 
 namespace grainstep::scene {
 namespace {

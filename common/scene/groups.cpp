@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/assert.hpp"
 #include "load/pressure_history.hpp"
@@ -37,6 +38,14 @@ double seconds(const Instant& instant, double reference_time) {
   return instant.has_seconds() ? instant.seconds() : instant.t_bar() * reference_time;
 }
 
+const Layer* yielding_layer(const Structure& structure) {
+  for (const Layer& layer : structure.layers()) {
+    if (layer.material() == Layer::MATERIAL_DH36) return &layer;
+    if (layer.material() == Layer::MATERIAL_CORE) return &structure.layers(0);
+  }
+  return structure.type() == Structure::TYPE_RIGID && structure.layers_size() > 0 ? &structure.layers(0) : nullptr;
+}
+
 bool has_slug(const Scene& scene) {
   return scene.impactor().type() != Impactor::TYPE_PRESSURE && scene.impactor().type() != Impactor::TYPE_NONE;
 }
@@ -62,10 +71,12 @@ bool has_mirror(const Scene& scene) {
 
 namespace {
 
-void add_slug(const Scene& scene, Groups& g) {
+void add_slug(const Scene& scene, std::optional<double> mass, Groups& g) {
   const auto& slug = scene.impactor().slug();
-  const double rho_bar = slug.relative_density();
+  g.loaded_width = (scene.structure().extent() == Structure::EXTENT_HALF ? 1.0 : 2.0) * slug.half_width();
+  g.loaded_area = area(scene, {0.0, g.loaded_width});
   const double rho_s = slug.particle().density();
+  const double rho_bar = mass ? *mass / (rho_s * g.loaded_area * slug.height()) : slug.relative_density();
   const double tail_speed = slug.has_tail_speed() ? slug.tail_speed() : slug.speed();
   g.areal_momentum = areal_momentum(rho_bar, rho_s, slug.height(), 0.5 * (slug.speed() + tail_speed));
   g.areal_mass_ratio = areal_mass_ratio(rho_bar, rho_s, slug.height(), g.areal_mass);
@@ -77,8 +88,6 @@ void add_slug(const Scene& scene, Groups& g) {
   g.arrival = slug.stand_off() > 0 ? std::min(of_head, of_tail) / std::cos(slug.angle()) : 0;
   g.loading_time_ratio = loading_time_ratio(g.slug_time, g.reference_time);
   g.slug_pressure = rho_bar * rho_s * slug.speed() * slug.speed();
-  g.loaded_width = (scene.structure().extent() == Structure::EXTENT_HALF ? 1.0 : 2.0) * slug.half_width();
-  g.loaded_area = area(scene, {0.0, g.loaded_width});
 }
 
 void add_pressure(const Scene& scene, Groups& g) {
@@ -91,22 +100,31 @@ void add_pressure(const Scene& scene, Groups& g) {
   const load::Moments moments = load::moments(pressure);
   if (!std::isfinite(moments.impulse) || !(moments.impulse > 0.0)) return;
   g.areal_momentum = moments.impulse;
-  g.loading_time_ratio = moments.mean_time / g.reference_time;
+  // Suction takes its moment off the mean: where that leaves the time of the load, it is no mean of anything.
+  const double since_onset = moments.mean_time - moments.onset;
+  if (since_onset >= 0.0 && since_onset <= moments.end - moments.onset) {
+    g.loading_time_ratio = since_onset / g.reference_time;
+  }
 }
 
 }  // namespace
 
-Groups groups(const Scene& scene) {
-  GS_ASSERT(scene.structure().layers_size() > 0, "a structure without layers passed the loader");
-  const auto& face = scene.structure().layers(0);
+Groups groups(const Scene& scene, std::optional<double> slug_mass) {
+  const Structure& structure = scene.structure();
+  GS_ASSERT(structure.layers_size() > 0, "a structure without layers passed the loader");
   Groups g;
-  g.areal_mass = areal_mass(scene.structure());
-  g.reference_time = reference_time(scene.structure().half_span(), face.density(), face.yield_strength());
-  g.loaded_width = loaded_face(scene.structure()).length();
-  g.loaded_area = area(scene, loaded_face(scene.structure()));
-  if (has_slug(scene)) add_slug(scene, g);
+  g.areal_mass = areal_mass(structure);
+  const Layer* metal = yielding_layer(structure);
+  if (metal != nullptr) {
+    g.reference_time = reference_time(structure.half_span(), metal->density(), metal->yield_strength());
+  }
+  g.loaded_width = loaded_face(structure).length();
+  g.loaded_area = area(scene, loaded_face(structure));
+  if (has_slug(scene)) add_slug(scene, slug_mass, g);
   if (scene.impactor().type() == Impactor::TYPE_PRESSURE) add_pressure(scene, g);
-  g.impulse_number = impulse_number(g.areal_momentum, g.areal_mass, face.yield_strength(), face.density());
+  if (metal != nullptr) {
+    g.impulse_number = impulse_number(g.areal_momentum, g.areal_mass, metal->yield_strength(), metal->density());
+  }
   g.end = seconds(scene.time().end(), g.reference_time);
   return g;
 }

@@ -68,8 +68,10 @@ class Includer {
     if (regular && size > 0) text << stream.rdbuf();
     if (!regular || !stream) {
       throw InputError(problem_line(from, from.line > 0 ? "include" : "",
-                                    "cannot read '" + path.string() +
-                                        "': " + (fs::exists(path, error) ? "not a readable file" : "no such file")));
+                                    "cannot read '" + path.string() + "': " +
+                                        (fs::is_directory(path, error) ? "a directory, expected a file"
+                                         : fs::exists(path, error)     ? "not a readable file"
+                                                                       : "no such file")));
     }
     return text.str();
   }

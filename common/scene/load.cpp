@@ -3,19 +3,47 @@
 #include <memory>
 #include <vector>
 
+#include "base/error.hpp"
+#include "grainstep/study.pb.h"
 #include "scene/core.hpp"
 #include "scene/include.hpp"
 #include "scene/overrides.hpp"
 #include "scene/problems.hpp"
 #include "scene/read.hpp"
 #include "scene/rules.hpp"
+#include "scene/suggest.hpp"
 
 namespace grainstep::scene {
 using google::protobuf::Message;
 
+namespace {
+
+std::vector<std::string> known_of(const Tree& tree, const google::protobuf::Descriptor& kind) {
+  std::vector<std::string> known;
+  for (const auto& [name, member] : tree.members) {
+    if (kind.FindFieldByName(name) != nullptr) known.push_back(name);
+  }
+  return known;
+}
+
+/// A study where a scene belongs, or a scene for a study: a list of unknown keys would not say so.
+void refuse_other_kind(const Tree& tree, const std::string& file, const google::protobuf::Descriptor& wanted) {
+  const bool scene = &wanted == Scene::descriptor();
+  if (!scene && &wanted != study::Study::descriptor()) return;
+  const auto& other = scene ? *study::Study::descriptor() : *Scene::descriptor();
+  const auto of_other = known_of(tree, other);
+  if (of_other.size() <= known_of(tree, wanted).size()) return;
+  const std::string advice = scene ? "a study, not a scene: use grainstep study " + file
+                                   : "a scene, not a study: use grainstep run " + file + ", or grainstep check";
+  throw InputError(file + ": is " + advice + " (it has the keys " + join_words(of_other) + ")");
+}
+
+}  // namespace
+
 Tree load(const std::filesystem::path& path, std::span<const Override> overrides, Message& message) {
   Problems problems;
   Tree tree = read_file(path, problems);
+  refuse_other_kind(tree, path.string(), *message.GetDescriptor());
   for (const auto& one : overrides) apply_override(tree, one, problems);
   const std::unique_ptr<Message> read(message.New());
   read_message(tree, "", *read, problems);

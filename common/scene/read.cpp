@@ -17,6 +17,13 @@ std::string found_instead(const Tree& tree, const std::string& expected) {
   return "expected " + expected + ", found " + tree.description();
 }
 
+std::string advice_for(const std::string& name, const std::vector<std::string>& known) {
+  if (name == "include") return "; a file is included at its top level only";
+  if (name == "<<") return "; YAML's merge key is not read: write the keys out, or put them into a file to include";
+  if (name.find(':') != std::string::npos) return "; a blank is missing behind its colon";
+  return hint(name, known);
+}
+
 class Reader {
  public:
   explicit Reader(Problems& problems) : problems_(problems) {}
@@ -44,7 +51,7 @@ class Reader {
     const auto known = key_names(descriptor);
     for (const auto& [name, member] : tree.members) {
       if (descriptor.FindFieldByName(name) != nullptr) continue;
-      const std::string advice = name == "include" ? "; a file is included at its top level only" : hint(name, known);
+      const std::string advice = advice_for(name, known);
       problems_.add(
           member.origin, join_path(path, name),
           "unknown key" + advice + (advice.ends_with('?') ? " " : ". ") + "Known keys here: " + join_words(known));

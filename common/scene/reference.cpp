@@ -14,6 +14,13 @@ using google::protobuf::FieldDescriptor;
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
+/// A bar would begin the next column.
+std::string in_a_table(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? "&#124;" : std::string(1, c);
+  return out;
+}
+
 bool is_section(const FieldDescriptor& field) {
   return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !section_of(*field.message_type()).scalar_form();
 }
@@ -47,7 +54,8 @@ std::string row(const FieldDescriptor& field) {
   const auto& key = key_of(field);
   const std::string type = (field.is_repeated() ? "list of " : "") + type_text(field);
   return "| " + code(field.name()) + " | " + type + " | " + code(key.unit()) + " | " + range_text(key) + " | " +
-         default_text(field) + " | " + code(key.symbol()) + " | " + key.text() + " |\n";
+         default_text(field) + " | " + code(key.symbol()) + " | " + in_a_table(key.text()) + usual_sentence(key) +
+         " |\n";
 }
 
 /// What may stand for a key that is neither a number nor a section: its words, or its alternatives.
@@ -60,7 +68,8 @@ std::string choices(const FieldDescriptor& field) {
       const std::string range = range_text(key_of(*member));
       const bool word = member->cpp_type() == FieldDescriptor::CPPTYPE_ENUM;
       const std::string form = word ? code(expected_value(*member)) : expected_value(*member);
-      text += "  - " + form + ": " + key_of(*member).text() + (range.empty() ? "" : " (" + range + ")") + "\n";
+      text += "  - " + form + ": " + key_of(*member).text() + (range.empty() ? "" : " (" + range + ")") + "." +
+              usual_sentence(key_of(*member)) + "\n";
     }
   }
   return text.empty() ? text : "- " + code(field.name()) + " is one of\n" + text;

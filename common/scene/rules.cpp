@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.hpp"
+#include "scene/bulk_viscosity.hpp"
 #include "scene/core.hpp"
 #include "scene/encounter.hpp"
 #include "scene/foam_rules.hpp"
 #include "scene/groups.hpp"
-#include "scene/number_text.hpp"
 #include "scene/read.hpp"
 #include "scene/sizes.hpp"
+#include "scene/usual.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -169,8 +171,17 @@ void steps_meet(const Steps& steps, Findings& findings) {
            "of one in a step of the other"});
 }
 
+/// @param end s, not a number where it cannot be told.
+void end_is_a_time(const Time& time, double end, Findings& findings) {
+  if (!std::isnan(end)) return;
+  findings.push_back({Severity::error, "time.end",
+                      "found " + rounded_text(time.end().t_bar()) +
+                          ", and a bare number counts L sqrt(rho_m/sigma_Y), but no layer of this structure yields: "
+                          "there is no sigma_Y. Write seconds, with their unit"});
+}
+
 void step_fits_run(const Step& step, const std::string& path, double end, Findings& findings) {
-  if (!step.has_seconds() || step.seconds() <= end) return;
+  if (!step.has_seconds() || !(step.seconds() > end)) return;
   findings.push_back({Severity::error, path,
                       "a step of " + rounded_text(step.seconds()) + " s is longer than the whole run (time.end is " +
                           rounded_text(end) + " s)"});
@@ -227,12 +238,15 @@ std::vector<Finding> check_rules(const Scene& scene) {
   covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},
                 "impactor.pressure.patch", findings);
   motion_is_read(scene.structure(), findings);
+  check_bulk_viscosity(scene, findings);
   symmetry_fits(scene, findings);
   velocities_apply(scene.structure(), findings);
   for (int i = 0; i < scene.structure().layers_size(); ++i) core_is_described(scene, i, findings);
+  end_is_a_time(scene.time(), end, findings);
   steps_meet(scene.steps(), findings);
   step_fits_run(scene.steps().impactor(), "steps.impactor", end, findings);
   step_fits_run(scene.steps().structure(), "steps.structure", end, findings);
+  check_usual(scene, findings);
   return findings;
 }
 

@@ -38,7 +38,7 @@ Json alternative_schema(const Descriptor& message) {
   Json any = Json::array();
   for (const auto* member : alternatives(message)) {
     Json choice = value_schema(*member);
-    choice["description"] = key_of(*member).text();
+    choice["description"] = key_of(*member).text() + "." + usual_sentence(key_of(*member));
     any.push_back(choice);
   }
   return {{"anyOf", any}};
@@ -75,6 +75,7 @@ std::string description(const FieldDescriptor& field) {
   if (!key.unit().empty()) text += " SI unit: " + key.unit() + ".";
   if (!key.symbol().empty()) text += " Symbol: " + key.symbol() + ".";
   if (key.required()) text += " Required.";
+  text += usual_sentence(key);
   if (!key.default_value().empty() && key.default_value() != "{}") text += " Default: " + key.default_value() + ".";
   return text;
 }

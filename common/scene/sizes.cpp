@@ -5,7 +5,7 @@
 #include <functional>
 #include <numeric>
 
-#include "scene/number_text.hpp"
+#include "base/number_text.hpp"
 
 namespace grainstep::scene {
 namespace {

@@ -1,5 +1,5 @@
 /// @file What a scene file says, before anything is known about its meaning: scalars, lists and maps, each with the
-/// place it came from. Own type rather than yaml-cpp's nodes, because merging must keep provenance and limit aliases.
+/// place it came from. Own type, because merging must keep provenance and aliases must stay within limits.
 #pragma once
 
 #include <map>

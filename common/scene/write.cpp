@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/assert.hpp"
+#include "base/number_text.hpp"
 #include "scene/declaration.hpp"
 #include "scene/load.hpp"
-#include "scene/number_text.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -12,10 +12,29 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using Lines = std::vector<std::string>;
 
-/// A YAML text in quotation marks; JSON's are a subset of YAML's.
+/// Characters that JSON writes as they are, but YAML does not read or takes for the end of a line: their bytes and
+/// their escapes.
+std::vector<std::pair<std::string, std::string>> unreadable() {
+  std::vector<std::pair<std::string, std::string>> all{{"\x7f", "\\x7F"},           {"\u2028", "\\u2028"},
+                                                       {"\u2029", "\\u2029"},       {"\xef\xbb\xbf", "\\uFEFF"},
+                                                       {"\xef\xbf\xbe", "\\uFFFE"}, {"\xef\xbf\xbf", "\\uFFFF"}};
+  for (int c = 0x80; c < 0xa0; ++c) {  // control characters of Latin-1
+    const std::string hex = std::string(c < 0x90 ? "8" : "9") + "0123456789ABCDEF"[c & 0xf];
+    all.emplace_back(std::string("\xc2") + static_cast<char>(c), "\\x" + hex);
+  }
+  return all;
+}
+
+/// A YAML text in quotation marks: JSON's, with some escapes more.
 std::string quoted(const std::string& text) {
-  const nlohmann::json json = text;
-  return json.dump();
+  static const auto escapes = unreadable();
+  std::string yaml = nlohmann::json(text).dump();
+  for (const auto& [bytes, escape] : escapes) {
+    for (auto at = yaml.find(bytes); at != std::string::npos; at = yaml.find(bytes, at)) {
+      yaml.replace(at, bytes.size(), escape);
+    }
+  }
+  return yaml;
 }
 
 /// One value of `field`; `index` counts the items of a repeated field and is ignored otherwise. Empty: nothing to

@@ -1,230 +1,132 @@
 #include "scene/yaml.hpp"
 
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/exceptions.h>
-#include <yaml-cpp/mark.h>
-#include <yaml-cpp/parser.h>
+#include <yaml.h>
 
-#include <algorithm>
-#include <sstream>
-#include <unordered_map>
-#include <utility>
+#include <new>
 
 #include "base/error.hpp"
+#include "scene/tree_builder.hpp"
+#include "scene/yaml_problem.hpp"
 
 namespace grainstep::scene {
 namespace {
 
-/// A scene has about six levels.
-constexpr int deepest_level = 32;
-/// All nodes together, aliases expanded: a few lines of nested aliases could otherwise fill the memory.
-constexpr std::size_t largest_tree = 4UL * 1024 * 1024;
-constexpr std::size_t node_weight = 64;
-
-/// Builds the tree from the parser's events.
-class Builder final : public YAML::EventHandler {
+/// libyaml's parser over one text.
+class Parser {
  public:
-  Builder(std::string source, Problems& problems) : source_(std::move(source)), problems_(problems) {}
-
-  [[nodiscard]] Tree take() { return std::move(root_); }
-
-  void OnDocumentStart(const YAML::Mark&) override {}
-  void OnDocumentEnd() override {}
-  void OnAnchor(const YAML::Mark&, const std::string&) override {}
-
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    complete(node(mark, Tree::Kind::null), anchor, 1);
+  Parser(const std::string& text, const std::string& source) : text_(text), source_(source) {
+    if (yaml_parser_initialize(&parser_) == 0) throw std::bad_alloc();
+    yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  }
+  Parser(const Parser&) = delete;
+  Parser& operator=(const Parser&) = delete;
+  ~Parser() {
+    yaml_event_delete(&event_);
+    yaml_parser_delete(&parser_);
   }
 
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& value) override {
-    Tree scalar = node(mark, Tree::Kind::scalar);
-    scalar.scalar = value;
-    scalar.quoted = tag == "!";
-    complete(std::move(scalar), anchor, 1);
+  /// Valid until the next call.
+  const yaml_event_t& next() {
+    yaml_event_delete(&event_);
+    if (yaml_parser_parse(&parser_, &event_) == 0) throw InputError(yaml_problem(parser_, text_, source_));
+    return event_;
   }
-
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) fail(mark, "an alias inside of what it stands for");
-    spend(mark, found->second.weight);
-    Tree copy = found->second.tree;
-    copy.origin = at(mark);
-    complete(std::move(copy), 0, found->second.levels);
-  }
-
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    open(mark, Tree::Kind::list, anchor);
-  }
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    open(mark, Tree::Kind::map, anchor);
-  }
-  void OnSequenceEnd() override { close(); }
-  void OnMapEnd() override { close(); }
 
  private:
-  struct Frame {
-    Tree tree;
-    YAML::anchor_t anchor = 0;
-    int levels = 1;  ///< depth of what it holds so far, itself included
-    std::size_t weight_before = 0;
-    bool has_key = false;
-    std::string key;
-    Origin key_origin;
-  };
-  struct Anchored {
-    Tree tree;
-    std::size_t weight = 0;
-    int levels = 1;
-  };
+  const std::string& text_;
+  const std::string& source_;
+  yaml_parser_t parser_{};
+  yaml_event_t event_{};
+};
 
-  [[nodiscard]] Origin at(const YAML::Mark& mark) const { return {source_, mark.line + 1}; }
+std::string text_of(const yaml_char_t* text) {
+  return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
+}
 
-  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& text) const {
-    throw InputError(problem_line(at(mark), "", text));
-  }
+int line_of(const yaml_event_t& event) { return static_cast<int>(event.start_mark.line) + 1; }
 
-  void spend(const YAML::Mark& mark, std::size_t weight) {
-    weight_ += weight;
-    if (weight_ > largest_tree) fail(mark, "the file is too large once its aliases are written out");
-  }
+class Reading {
+ public:
+  Reading(std::string source, Problems& problems) : source_(std::move(source)), builder_(source_, problems) {}
 
-  Tree node(const YAML::Mark& mark, Tree::Kind kind) {
-    Tree tree;
-    tree.kind = kind;
-    tree.origin = at(mark);
-    return tree;
-  }
+  [[nodiscard]] Tree take() { return builder_.take(); }
 
-  void open(const YAML::Mark& mark, Tree::Kind kind, YAML::anchor_t anchor) {
-    if (static_cast<int>(frames_.size()) >= deepest_level) fail(mark, too_deep());
-    Frame frame;
-    frame.tree = node(mark, kind);
-    frame.anchor = anchor;
-    frame.weight_before = weight_;
-    frames_.push_back(std::move(frame));
-  }
-
-  void close() {
-    Frame frame = std::move(frames_.back());
-    frames_.pop_back();
-    weight_at_open_ = frame.weight_before;
-    complete(std::move(frame.tree), frame.anchor, frame.levels);
-  }
-
-  static std::string too_deep() { return "more than " + std::to_string(deepest_level) + " levels of lists and maps"; }
-
-  /// A finished node: remember it if it has an anchor, hand it to its parent.
-  void complete(Tree tree, YAML::anchor_t anchor, int levels) {
-    const bool leaf = tree.kind == Tree::Kind::scalar || tree.kind == Tree::Kind::null;
-    const std::size_t before = leaf ? weight_ : weight_at_open_;
-    weight_ += node_weight + tree.scalar.size();
-    const YAML::Mark mark = mark_of(tree);
-    spend(mark, 0);
-    if (static_cast<int>(frames_.size()) + levels > deepest_level + 1) fail(mark, too_deep());
-    if (anchor != 0) anchors_[anchor] = {tree, weight_ - before, levels};
-    if (frames_.empty()) {
-      root_ = std::move(tree);
-      return;
-    }
-    Frame& parent = frames_.back();
-    parent.levels = std::max(parent.levels, levels + 1);
-    if (parent.tree.kind == Tree::Kind::list) {
-      parent.tree.items.push_back(std::move(tree));
-    } else if (parent.has_key) {
-      insert(parent, std::move(tree));
-    } else {
-      read_key(parent, tree);
+  void read(const yaml_event_t& event) {
+    const auto& data = event.data;
+    switch (event.type) {
+      case YAML_SCALAR_EVENT:
+        refuse_tag(event, data.scalar.tag);
+        return scalar(event);
+      case YAML_ALIAS_EVENT:
+        return builder_.alias({line_of(event), text_of(data.alias.anchor)});
+      case YAML_SEQUENCE_START_EVENT:
+        refuse_tag(event, data.sequence_start.tag);
+        return builder_.open({line_of(event), text_of(data.sequence_start.anchor)}, Tree::Kind::list);
+      case YAML_MAPPING_START_EVENT:
+        refuse_tag(event, data.mapping_start.tag);
+        return builder_.open({line_of(event), text_of(data.mapping_start.anchor)}, Tree::Kind::map);
+      case YAML_SEQUENCE_END_EVENT:
+      case YAML_MAPPING_END_EVENT:
+        return builder_.close();
+      case YAML_DOCUMENT_START_EVENT:
+        if (++documents_ > 1) fail(event, "more than one YAML document (---); expected one");
+        return;
+      default:
+        return;
     }
   }
 
-  static YAML::Mark mark_of(const Tree& tree) {
-    YAML::Mark mark;
-    mark.line = tree.origin.line - 1;
-    return mark;
+ private:
+  [[noreturn]] void fail(const yaml_event_t& event, const std::string& text) const {
+    throw InputError(problem_line({source_, line_of(event)}, "", text));
   }
 
-  void read_key(Frame& parent, const Tree& tree) {
-    if (tree.kind != Tree::Kind::scalar) fail(mark_of(tree), "a key must be a name, but here is " + tree.description());
-    parent.has_key = true;
-    parent.key = tree.scalar;
-    parent.key_origin = tree.origin;
+  void refuse_tag(const yaml_event_t& event, const yaml_char_t* tag) const {
+    if (tag == nullptr) return;
+    const std::string common = "tag:yaml.org,2002:";
+    std::string name = text_of(tag);
+    if (name.starts_with(common)) name.replace(0, common.size(), "!!");
+    fail(event, "the tag " + name + ": nobody would read it; leave out what begins with an exclamation mark");
   }
 
-  void insert(Frame& parent, Tree value) {
-    parent.has_key = false;
-    value.origin = parent.key_origin;
-    const auto [place, inserted] = parent.tree.members.emplace(parent.key, std::move(value));
-    if (!inserted) {
-      problems_.add(parent.key_origin, path_of_frames(),
-                    "this key is already given in line " + std::to_string(place->second.origin.line));
+  void scalar(const yaml_event_t& event) {
+    const auto& found = event.data.scalar;
+    const bool quoted = found.style != YAML_PLAIN_SCALAR_STYLE;
+    const bool in_marks =
+        found.style == YAML_SINGLE_QUOTED_SCALAR_STYLE || found.style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
+    // A forgotten closing mark reaches as far as the next one, in a comment as well, and swallows the keys between.
+    if (in_marks && event.start_mark.line != event.end_mark.line) {
+      fail(event, "a text in quotation marks that begins here ends in line " + std::to_string(event.end_mark.line + 1) +
+                      "; if its closing mark is missing here, add it, else write a text of several lines with | or >");
     }
-  }
-
-  /// Path of the key that is being read.
-  [[nodiscard]] std::string path_of_frames() const {
-    std::string path;
-    for (const auto& frame : frames_) {
-      path = join_path(path, frame.tree.kind == Tree::Kind::list ? std::to_string(frame.tree.items.size()) : frame.key);
-    }
-    return path;
+    builder_.scalar({line_of(event), text_of(found.anchor)},
+                    std::string(reinterpret_cast<const char*>(found.value), found.length), quoted);
   }
 
   std::string source_;
-  Problems& problems_;
-  Tree root_;
-  std::vector<Frame> frames_;
-  std::unordered_map<YAML::anchor_t, Anchored> anchors_;
-  std::size_t weight_ = 0;
-  std::size_t weight_at_open_ = 0;
+  TreeBuilder builder_;
+  int documents_ = 0;
 };
 
-int line_of(const std::string& text, std::size_t offset) {
-  return static_cast<int>(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
-}
-
-/// Control characters are no YAML, and the parser takes some of them for the end of the file.
-void check_characters(const std::string& text, const std::string& source) {
-  if (text.size() > largest_file) {
-    throw InputError(source + ": " + std::to_string(text.size()) + " bytes; a scene has at most " +
-                     std::to_string(largest_file));
-  }
-  const auto bad = std::find_if(text.begin(), text.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t');
-  });
-  if (bad == text.end()) return;
-  throw InputError(source + ":" + std::to_string(line_of(text, static_cast<std::size_t>(bad - text.begin()))) +
-                   ": a control character (byte " + std::to_string(static_cast<unsigned char>(*bad)) +
-                   "); expected YAML text in UTF-8");
-}
-
-Tree parse(const std::string& text, const std::string& source, Problems& problems) {
-  std::istringstream stream(text);
-  YAML::Parser parser(stream);
-  Builder builder(source, problems);
-  if (!parser.HandleNextDocument(builder)) return {};
-  Tree tree = builder.take();
-  Problems ignored;
-  Builder second(source, ignored);
-  if (parser.HandleNextDocument(second)) {
-    throw InputError(source + ": more than one YAML document (---); expected one");
-  }
-  return tree;
+void check_size(const std::string& text, const std::string& source) {
+  if (text.size() <= largest_file) return;
+  throw InputError(source + ": " + std::to_string(text.size()) + " bytes; a scene has at most " +
+                   std::to_string(largest_file));
 }
 
 }  // namespace
 
 Tree parse_yaml(const std::string& text, const std::string& source, Problems& problems) {
-  check_characters(text, source);
-  Tree tree;
-  try {
-    tree = parse(text, source, problems);
-  } catch (const YAML::Exception& error) {
-    throw InputError(problem_line({source, error.mark.line + 1}, "", "not YAML: " + error.msg));
+  check_size(text, source);
+  Parser parser(text, source);
+  if (parser.next().data.stream_start.encoding != YAML_UTF8_ENCODING) {
+    throw InputError(source + ": in UTF-16; expected YAML text in UTF-8");
   }
+  Reading reading(source, problems);
+  for (const yaml_event_t* event = &parser.next(); event->type != YAML_STREAM_END_EVENT; event = &parser.next()) {
+    reading.read(*event);
+  }
+  Tree tree = reading.take();
   tree.origin = {source, 0};
   return tree;
 }

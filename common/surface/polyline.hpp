@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,12 @@ class Polyline {
   [[nodiscard]] std::span<Vec2> nodes() { return nodes_; }  ///< m; move them at will, the topology stays
   [[nodiscard]] const Segment& segment(std::uint32_t index) const { return segments_[index]; }
 
+  [[nodiscard]] double length(std::uint32_t segment) const { return norm(tangent(segment)); }  ///< m, now
+
+  /// The segment that ends where this one begins, or begins where it ends; none at the end of an open piece.
+  [[nodiscard]] std::optional<std::uint32_t> before(std::uint32_t segment) const { return known(before_[segment]); }
+  [[nodiscard]] std::optional<std::uint32_t> after(std::uint32_t segment) const { return known(after_[segment]); }
+
   /// Squared distance of p to a segment, m^2.
   [[nodiscard]] double squared_distance(const Vec2& p, std::uint32_t segment) const;
 
@@ -57,6 +64,9 @@ class Polyline {
 
  private:
   static constexpr std::int64_t none = -1;
+  [[nodiscard]] static std::optional<std::uint32_t> known(std::int64_t segment) {
+    return segment == none ? std::nullopt : std::optional(static_cast<std::uint32_t>(segment));
+  }
 
   [[nodiscard]] Vec2 tangent(std::uint32_t segment) const;      ///< not normalised
   [[nodiscard]] Vec2 unit_normal(std::uint32_t segment) const;  ///< outward

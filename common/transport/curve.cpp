@@ -97,14 +97,4 @@ std::array<std::uint8_t, 32> key_bytes(const std::string& text) {
   return bytes;
 }
 
-bool leaves_this_host(const std::string& endpoint) {
-  const std::string scheme = "tcp://";
-  if (endpoint.rfind(scheme, 0) != 0) {
-    return false;
-  }
-  const std::string host = endpoint.substr(scheme.size(), endpoint.rfind(':') - scheme.size());
-  const bool numeric = host.find_first_not_of("0123456789.") == std::string::npos;  // a name may begin with 127. too
-  return !(numeric && host.rfind("127.", 0) == 0) && host != "localhost" && host != "[::1]";
-}
-
 }  // namespace grainstep::transport

@@ -33,7 +33,4 @@ void make_keys(const std::filesystem::path& directory);
 /// The 32 bytes of a key in text form, as ZAP requests carry them.
 [[nodiscard]] std::array<std::uint8_t, 32> key_bytes(const std::string& text);
 
-/// Whether data to `endpoint` can be seen on a network: tcp to anything but 127.x.y.z, localhost or [::1].
-[[nodiscard]] bool leaves_this_host(const std::string& endpoint);
-
 }  // namespace grainstep::transport

@@ -37,7 +37,7 @@ ZmqChannel::ZmqChannel(const std::string& endpoint, End end, const ZmqOptions& o
       context_(1),
       socket_(context_, channel_socket_type),
       monitor_(context_, zmq::socket_type::pair) {
-  check_endpoint(endpoint, options_);
+  check_endpoint(endpoint, end == End::bind ? Use::listen : Use::connect, options_);
   set_options(socket_, options_);
   set_monitor_options(monitor_);
   if (::zmq_socket_monitor(socket_.handle(), monitor_endpoint, watched_events) != 0) {

@@ -1,8 +1,9 @@
 /// @file Channels between processes and hosts over ZeroMQ: "ipc:///path" or "tcp://host:port".
 ///
 /// A connection is made once. When it breaks, for whatever reason, the peer is lost for good: a process that was killed
-/// is noticed at once, one that is frozen or cut off within ZmqOptions heartbeat_s + silence_s. What it had sent before
-/// is delivered first. Nobody else can take the place of a peer; further connectors are turned away.
+/// is noticed at once, one that is frozen or cut off within ZmqOptions heartbeat_s + silence_s of its last message.
+/// What it had sent before is delivered first. Nobody else can take the place of a peer; further connectors are turned
+/// away.
 #pragma once
 
 #include <memory>

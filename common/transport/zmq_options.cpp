@@ -9,11 +9,12 @@ int milliseconds(double seconds) { return static_cast<int>(seconds * 1e3); }
 
 }  // namespace
 
-void check_endpoint(const std::string& endpoint, const ZmqOptions& options) {
+void check_endpoint(const std::string& endpoint, Use use, const ZmqOptions& options) {
+  check_form(endpoint, use);
   if (options.curve_dir.empty() && !options.allow_plain_tcp && leaves_this_host(endpoint)) {
     throw InputError(endpoint +
-                     ": leaves this host unencrypted; give the directory of the CURVE keys, or allow plain tcp "
-                     "if the network is private");
+                     ": leaves this host unencrypted; give the directory of the CURVE keys (--curve-dir), or "
+                     "--allow-plain-tcp if the network is private");
   }
 }
 
@@ -29,7 +30,7 @@ void set_options(zmq::socket_t& socket, const ZmqOptions& options) {
   // The peer drops us by the same measure, even where its own heartbeats are off (rounded to 0.1 s by the protocol).
   socket.set(opt::heartbeat_ttl, milliseconds(options.heartbeat_s + options.silence_s));
   // Who connects and then does not speak ZMTP, or is not answered, is dropped.
-  socket.set(opt::handshake_ivl, 10'000);
+  socket.set(opt::handshake_ivl, 30'000);
   // Never reconnect by itself: the new connection could reach another run on the same endpoint. An interval of -1 would
   // say so too, but makes libzmq drop messages that have arrived and were not read yet.
   socket.set(opt::reconnect_ivl, 3'600'000);

@@ -74,6 +74,14 @@ std::string base_units(const ut_unit* unit) {
   return length > 0 ? std::string(buffer.data()) : std::string("?");
 }
 
+/// Of the same powers of the base units. Two doors of UDUNITS are closed: it would turn a period into a rate by its
+/// reciprocal, and it takes radians for pure numbers, but 35 deg is no coefficient of friction.
+bool same_dimension(const ut_unit* one, const ut_unit* other) {
+  const Unit quotient(ut_divide(one, other));
+  return quotient && ut_is_dimensionless(quotient.get()) != 0 &&
+         base_units(quotient.get()).find("rad") == std::string::npos;
+}
+
 /// What a quantity of this dimension is called, for messages.
 std::string dimension_name(const ut_unit* unit) {
   struct Named {
@@ -98,11 +106,13 @@ std::string dimension_name(const ut_unit* unit) {
       Named{"s-1", "a rate"},
       Named{"Pa s", "a viscosity"},
       Named{"K", "a temperature"},
+      Named{"rad", "an angle"},
+      Named{"rad/s", "an angular speed"},
       Named{"1", "a pure number"},
   };
   for (const auto& [text, name] : names) {
     const Unit candidate = parse_unit(text);
-    if (candidate && ut_are_convertible(unit, candidate.get()) != 0) return name;
+    if (candidate && same_dimension(unit, candidate.get())) return name;
   }
   return "a quantity in " + base_units(unit);
 }
@@ -149,10 +159,7 @@ double convert(std::string_view text, const WrittenNumber& number, std::string_v
     throw InputError(quoted + ": '" + number.unit + "' is not a unit that UDUNITS-2 knows; expected " +
                      expectation(unit));
   }
-  // UDUNITS would also turn a period into a rate by its reciprocal: too clever for an input file.
-  const Unit quotient(ut_divide(from.get(), to.get()));
-  const bool same_dimension = quotient && ut_is_dimensionless(quotient.get()) != 0;
-  if (!same_dimension) {
+  if (!same_dimension(from.get(), to.get())) {
     throw InputError(quoted + " is " + dimension_name(from.get()) + " and cannot be converted to " +
                      (unit.empty() ? std::string("a pure number") : std::string(unit)));
   }
@@ -160,6 +167,36 @@ double convert(std::string_view text, const WrittenNumber& number, std::string_v
   const double value = converter ? apply(converter.get(), number) : std::nan("");
   if (!std::isfinite(value)) throw InputError(quoted + " is not finite in " + std::string(unit));
   return value;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Whether an exponent's number begins at `at`.
+bool is_exponent(std::string_view text, std::size_t at) {
+  const std::size_t digit = at < text.size() && (text[at] == '+' || text[at] == '-') ? at + 1 : at;
+  return digit < text.size() && is_digit(text[digit]);
+}
+
+/// Numbers that other programs write or read, and that end too early here: what follows would be taken for a unit (d is
+/// a day, e the charge of an electron).
+void refuse_other_spelling(std::string_view written, std::size_t used) {
+  const std::string quoted = "'" + std::string(written) + "'";
+  const std::string digits(written.substr(0, used));
+  const std::string_view rest = written.substr(used);
+  const auto meant = [&](std::size_t skip, const char* sign) {
+    return "; write " + digits + sign + std::string(rest.substr(skip));
+  };
+  if (rest.size() > 1 && (rest[0] == 'd' || rest[0] == 'D') && is_exponent(rest, 1)) {
+    throw InputError(quoted + ": an exponent as Fortran writes it" + meant(1, "e"));
+  }
+  if (rest.size() > 1 && rest[0] == ',' && is_digit(rest[1])) {
+    throw InputError(quoted + ": a comma inside of the number" + meant(1, "."));
+  }
+  const auto letter = rest.find_first_not_of(' ');
+  const bool apart = letter != 0 && letter != std::string_view::npos && (rest[letter] == 'e' || rest[letter] == 'E');
+  if (apart && is_exponent(rest, letter + 1)) {
+    throw InputError(quoted + ": a blank inside of the number" + meant(letter + 1, "e"));
+  }
 }
 
 }  // namespace
@@ -175,6 +212,7 @@ std::optional<WrittenNumber> split_number(std::string_view text) {
     throw InputError("'" + std::string(written) + "' is not a finite number");
   }
   const auto used = static_cast<std::size_t>(end - digits.data());
+  refuse_other_spelling(digits, used);
   return WrittenNumber{value, std::string(digits.substr(0, used)), std::string(trim(digits.substr(used)))};
 }
 

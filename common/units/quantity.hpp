@@ -17,11 +17,13 @@ struct WrittenNumber {
 };
 
 /// Splits the number from its unit. nullopt: `text` does not begin with a number.
-/// @throws InputError if the number is not finite (nan, inf, 1e999).
+/// @throws InputError if the number is not finite (nan, inf, 1e999), or goes on in a way that other programs know
+/// (1d-3, 1,5, 1 e-3).
 [[nodiscard]] std::optional<WrittenNumber> split_number(std::string_view text);
 
 /// `text` in `unit` (UDUNITS spelling; empty: a pure number). A bare number is taken to be in `unit` already.
-/// Decimal prefixes are exact: "200 um", "0.2 mm" and "0.0002" give the same bits, hence the same scene.
+/// An angle is no pure number, and a pure number no angle. Decimal prefixes are exact: "200 um", "0.2 mm" and "0.0002"
+/// give the same bits, hence the same scene.
 /// @throws InputError naming the text, what it is, and the unit that was expected.
 [[nodiscard]] double parse_quantity(std::string_view text, std::string_view unit);
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/instruction_set.hpp"
+
 namespace grainstep::dem {
 
 // Defined by the copies of kernel.cpp.
@@ -18,13 +20,8 @@ constexpr std::uint32_t no_pair = std::numeric_limits<std::uint32_t>::max();
 
 std::vector<const PairKernels*> detect() {
   std::vector<const PairKernels*> found;
-  __builtin_cpu_init();
-  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                  __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-                  __builtin_cpu_supports("avx512cd");
-  if (v4) found.push_back(&pair_kernels_x86_64_v4);
-  if (v3) found.push_back(&pair_kernels_x86_64_v3);
+  if (x86_level() >= X86Level::v4) found.push_back(&pair_kernels_x86_64_v4);
+  if (x86_level() >= X86Level::v3) found.push_back(&pair_kernels_x86_64_v3);
   found.push_back(&pair_kernels_x86_64);
   return found;
 }

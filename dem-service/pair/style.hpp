@@ -11,14 +11,10 @@
 /// docs/decisions/0009-own-pair-style.md says why.
 #pragma once
 
-#include "dem-service/lammps_fmt.hpp"
-
-#include <lammps/fix.h>
-#include <lammps/pair.h>
-
 #include <memory>
 #include <optional>
 
+#include "dem-service/lammps_adapter.hpp"
 #include "dem-service/pair/contacts.hpp"
 #include "dem-service/pair/partners.hpp"
 
@@ -26,19 +22,17 @@ namespace grainstep::dem {
 
 class PairFix;
 
-class PairStyle : public LAMMPS_NS::Pair {
+class PairStyle : public lammps::UniformPair {
  public:
   static constexpr const char* style_name = "grainstep/hooke";
 
   /// Makes pair style and fix known to this LAMMPS instance.
-  static void register_style(LAMMPS_NS::LAMMPS& lammps);
-  /// The instance's pair style, which is this one.
-  static PairStyle& find(LAMMPS_NS::LAMMPS& lammps);
+  static void register_style(lammps::Instance& lammps);
 
   /// gamma_n for every effective mass, instead of the one of the command. nullptr: the command's.
   void damp_by_mass(std::shared_ptr<const contact::DampingTable> table);
 
-  explicit PairStyle(LAMMPS_NS::LAMMPS* lammps);
+  explicit PairStyle(lammps::Instance* lammps);
   ~PairStyle() override;
   PairStyle(const PairStyle&) = delete;
   PairStyle& operator=(const PairStyle&) = delete;
@@ -46,7 +40,6 @@ class PairStyle : public LAMMPS_NS::Pair {
   PairStyle& operator=(PairStyle&&) = delete;
 
   void settings(int argument_count, char** arguments) override;
-  void coeff(int argument_count, char** arguments) override;
   void init_style() override;
   double init_one(int i, int j) override;
   void compute(int eflag, int vflag) override;
@@ -56,7 +49,6 @@ class PairStyle : public LAMMPS_NS::Pair {
 
  private:
   friend class PairFix;
-  void allocate();
   /// Between lists of pairs, particles carry their contacts themselves.
   void to_particles(Partners& partners) const;
   void from_particles(const Partners& partners);
@@ -68,17 +60,12 @@ class PairStyle : public LAMMPS_NS::Pair {
   double largest_radius_ = 0.0;
 };
 
-class PairFix : public LAMMPS_NS::Fix {
+class PairFix : public lammps::ParticleFix {
  public:
   static constexpr const char* style_name = "grainstep/pair";
   static constexpr const char* fix_id = "grainstep_pair";
 
-  PairFix(LAMMPS_NS::LAMMPS* lammps, int argument_count, char** arguments);
-  ~PairFix() override;
-  PairFix(const PairFix&) = delete;
-  PairFix& operator=(const PairFix&) = delete;
-  PairFix(PairFix&&) = delete;
-  PairFix& operator=(PairFix&&) = delete;
+  PairFix(lammps::Instance* lammps, int argument_count, char** arguments);
 
   void connect(PairStyle& pair_style) { style_ = &pair_style; }
 

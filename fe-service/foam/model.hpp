@@ -42,8 +42,8 @@ struct FoamSetting {
 /// height, and omega^2 is inverse to that.
 [[nodiscard]] double preferred_foam_step(const FoamModel& model, double stable_step);
 
-/// Nodes of the leading face swing on their contacts within a few of its steps, and all at once where the block arrives:
-/// with four or more of them in a window the exchange takes 1 to 2% of the energy, with two 0.01%
+/// Nodes of the leading face swing on their contacts within a few of its steps, and all at once where the block
+/// arrives: with four or more of them in a window the exchange takes 1 to 2% of the energy, with two 0.01%
 /// (docs/theory/foam.md).
 inline constexpr double kFoamStepsPerWindow = 2.0;
 

@@ -1,6 +1,7 @@
 #include <array>
 #include <vector>
 
+#include "base/instruction_set.hpp"
 #include "fe-service/kernel/kernel.hpp"
 
 namespace grainstep::fe {
@@ -14,13 +15,8 @@ namespace {
 
 std::vector<const Kernels*> detect() {
   std::vector<const Kernels*> found;
-  __builtin_cpu_init();
-  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                  __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-                  __builtin_cpu_supports("avx512cd");
-  if (v4) found.push_back(&kernels_x86_64_v4);
-  if (v3) found.push_back(&kernels_x86_64_v3);
+  if (x86_level() >= X86Level::v4) found.push_back(&kernels_x86_64_v4);
+  if (x86_level() >= X86Level::v3) found.push_back(&kernels_x86_64_v3);
   found.push_back(&kernels_x86_64);
   return found;
 }

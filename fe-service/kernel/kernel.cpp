@@ -1,8 +1,8 @@
 /// @file Compiled once per instruction set (GRAINSTEP_FE_ISA names the copy); see docs/decisions/0003-element-loop.md.
 #include "fe-service/kernel/kernel.hpp"
 
+#include "fe-service/kernel/bulk_viscosity.hpp"
 #include "fe-service/kernel/frequency.hpp"
-#include "fe-service/kernel/sweep.hpp"
 
 namespace grainstep::fe {
 
@@ -13,8 +13,17 @@ void sweep(RowSweep& row, const Law& law, const Measure& measure) {
   sweep_row(row, law, measure);
 }
 
-template <class Law>
-constexpr Sweep<Law> kSweep = {&sweep<Law, PlaneStrain>, &sweep<Law, Axisymmetric>};
+template <class... Law>
+constexpr Sweeps<Law...> sweeps(LawList<Law...>) {
+  return {Sweep<Law>{&sweep<Law, PlaneStrain>, &sweep<Law, Axisymmetric>}...};
+}
+
+template <class Measure>
+void resist(RowSweep& row, const BulkViscosity& law, double* stress, const Measure& measure) {
+  resist_row(row, law, stress, measure);
+}
+
+constexpr Resist kResist = {&resist<PlaneStrain>, &resist<Axisymmetric>};
 
 template <class Measure>
 double largest_frequency(const RowSweep& row, const Elastic& law, const QuadMass& mass, const Measure& measure,
@@ -43,8 +52,7 @@ void drift(double* __restrict position, const double* __restrict velocity, doubl
 #define GS_TEXT(a) GS_TEXT_(a)
 
 extern const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA);
-const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {
-    GS_TEXT(GRAINSTEP_FE_ISA), kSweep<Elastic>, kSweep<Dh36>, kSweep<Core>, kSweep<Foam>,
-    kLargestFrequency,         &kick,           &drift};
+constinit const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {GS_TEXT(GRAINSTEP_FE_ISA), sweeps(Laws{}), kResist,
+                                                               kLargestFrequency,         &kick,          &drift};
 
 }  // namespace grainstep::fe

@@ -6,10 +6,9 @@
 #include <cstddef>
 #include <span>
 
+#include "fe-service/bulk_viscosity.hpp"
 #include "fe-service/kernel/layout.hpp"
-#include "fe-service/materials/core.hpp"
-#include "fe-service/materials/dh36.hpp"
-#include "fe-service/materials/foam.hpp"
+#include "fe-service/materials/laws.hpp"
 #include "fe-service/measure.hpp"
 
 namespace grainstep::fe {
@@ -27,7 +26,7 @@ struct ForceRow {
 };
 
 /// One row of quads over one step.
-struct RowSweep {
+struct RowSweep : RowOutcome {
   NodeRow upper, lower, centre;
   ForceRow upper_force, lower_force, centre_force;
   bool first_row = false;     ///< upper_force is set instead of added to; lower_force is always set
@@ -35,12 +34,9 @@ struct RowSweep {
   double* scratch = nullptr;  ///< scratch_size(quads) doubles, aligned
   int quads = 0;
   double step = 0.0;  ///< s
-  // results
-  double plastic_work = 0.0;    ///< J, of this step
-  double stored = 0.0;          ///< J, by which this step raised the stored energy; of foam only
-  double min_twice_area = 0.0;  ///< m^2, at the end of the step
-  int yielding = 0;             ///< batches with plastic flow
-  int unconverged = 0;          ///< batches whose local iteration did not converge
+  // results of bulk viscosity
+  double viscous_work = 0.0;  ///< J, of this step
+  double viscosity = 0.0;     ///< Pa s, the largest slope of stress against rate of volume
 };
 
 constexpr std::size_t padded(int quads) {
@@ -62,6 +58,24 @@ struct Sweep {
   void operator()(RowSweep& row, const Law& law, const Measure& measure) const {
     if (const auto* plane = std::get_if<PlaneStrain>(&measure)) return plane_strain(row, law, *plane);
     axisymmetric(row, law, std::get<Axisymmetric>(measure));
+  }
+};
+
+/// The loop's copies for all laws: the one for the law that is given is called.
+template <class... Law>
+struct Sweeps : Sweep<Law>... {
+  using Sweep<Law>::operator()...;
+};
+
+/// Adds the forces of bulk viscosity to those of the sweep before, from `stress`, one number for each quad (padded as
+/// the row is): that of the step before, which becomes this one's.
+struct Resist {
+  void (*plane_strain)(RowSweep&, const BulkViscosity&, double* stress, const PlaneStrain&);
+  void (*axisymmetric)(RowSweep&, const BulkViscosity&, double* stress, const Axisymmetric&);
+
+  void operator()(RowSweep& row, const BulkViscosity& law, double* stress, const Measure& measure) const {
+    if (const auto* plane = std::get_if<PlaneStrain>(&measure)) return plane_strain(row, law, stress, *plane);
+    axisymmetric(row, law, stress, std::get<Axisymmetric>(measure));
   }
 };
 
@@ -87,10 +101,8 @@ struct LargestFrequency {
 
 struct Kernels {
   const char* name;
-  Sweep<Elastic> sweep_elastic;
-  Sweep<Dh36> sweep_dh36;
-  Sweep<Core> sweep_core;
-  Sweep<Foam> sweep_foam;
+  Laws::Apply<Sweeps> sweep;
+  Resist resist;
   LargestFrequency largest_frequency;
   /// velocity += weight * force * inverse_mass
   void (*kick)(double* velocity, const double* force, const double* inverse_mass, double weight, std::size_t n);

@@ -4,8 +4,7 @@
 /// Corner nodes: row j = 0..ny (0 is the loaded face), column i = 0..nx, at j * corner_stride + i.
 /// Centre nodes: row j = 0..ny-1, at j * centre_stride + i.
 /// State of a row of elements: batches of 8 quads; in a batch, component after component, 32 doubles each:
-/// [component][triangle][quad]. Components 0..3 are the stress 11, 22, 12, 33; the last increment of plastic strain is
-/// where the next return mapping starts.
+/// [component][triangle][quad]. Components 0..3 are the stress 11, 22, 12, 33; the others are the material's.
 /// Triangles of a quad: 0 bottom (away from the loaded face), 1 right, 2 top, 3 left; corners counter-clockwise from
 /// the lower left, triangle t = (corner t, corner t+1, centre).
 #pragma once
@@ -21,15 +20,8 @@ inline constexpr int kQuadTriangles = 4;
 inline constexpr int kBatchTriangles = kBatchQuads * kQuadTriangles;
 inline constexpr std::size_t kAlignment = 64;
 
-enum StateComponent : int { kXX, kYY, kXY, kZZ, kPlasticStrain, kStaticStrength, kLastIncrement };
-/// Of a core, after the stress: transverse compressive plastic strain, and the direction of its material axes.
-enum CoreComponent : int { kCompaction = 4, kAxisCosine, kAxisSine };
-
-/// Number of state components of a material.
-inline constexpr int kElasticState = 4;
-inline constexpr int kPlasticState = 7;
-inline constexpr int kCoreState = 7;
-inline constexpr int kFoamState = 5;
+/// Every law's first components; its own begin at kStressState.
+enum StressComponent : int { kXX, kYY, kXY, kZZ, kStressState };
 
 template <class T>
 struct AlignedAllocator {

@@ -2,50 +2,15 @@
 /// material, nodal forces. Measure and material are template parameters: there is no second copy of this loop.
 #pragma once
 
-#include "fe-service/kernel/correct_foam.hpp"
+#include "fe-service/kernel/batch.hpp"
 
 namespace grainstep::fe {
 namespace {
 
-inline const Elastic& elasticity(const Elastic& law) { return law; }
-inline const Elastic& elasticity(const Dh36& law) { return law.elastic; }
-inline const Elastic& elasticity(const Core& law) { return law.elastic; }
-inline const Elastic& elasticity(const Foam& law) { return law.elastic; }
-
-/// What the correction by a material keeps per triangle, and how large its state is.
-template <class Law>
-struct Correction {
-  using Memory = Flow;
-  static constexpr int kState = kPlasticState;
-};
-template <>
-struct Correction<Elastic> {
-  using Memory = Flow;
-  static constexpr int kState = kElasticState;
-};
-template <>
-struct Correction<Core> {
-  using Memory = CoreFlow;
-  static constexpr int kState = kCoreState;
-};
-template <>
-struct Correction<Foam> {
-  using Memory = CoreFlow;
-  static constexpr int kState = kFoamState;
-};
-
-/// Whether the four triangles of a quad share their dilatation (measure.hpp). A foam's flow keeps no volume, so that
-/// nothing can lock.
+/// Whether the four triangles of a quad share their dilatation (measure.hpp). Where flow keeps no volume, nothing can
+/// lock.
 template <class Measure, class Law>
-inline constexpr bool kShares = Measure::kSharesDilatation;
-template <class Measure>
-inline constexpr bool kShares<Measure, Foam> = false;
-
-/// What a material wants to know of the step's length.
-inline double step_parameter(const Elastic&, double) { return 0.0; }
-inline double step_parameter(const Dh36& law, double step) { return std::log(step * law.reference_rate); }
-inline double step_parameter(const Core& law, double step) { return law.viscosity / step; }
-inline double step_parameter(const Foam& law, double step) { return law.viscosity / step; }
+inline constexpr bool kShares = Measure::kSharesDilatation&& Law::kTraits.keeps_volume;
 
 // The body of every lane loop is one call: GCC gives aggregates that are declared in the body of an `omp simd` loop a
 // home in memory, which keeps it from vectorising; those of an inlined function become registers.
@@ -98,7 +63,7 @@ GS_ALWAYS_INLINE void predict_lane(const Batch& batch, const Law& law, const Mea
     now.strain = {now.strain.xx + missing, now.strain.yy + missing, now.strain.gamma, now.strain.zz + missing};
   }
   const Stress old = rotate(stress_of(state, i), now.half_tangent);
-  const Stress change = rotate_from_middle(elasticity(law).increment(now.strain), now.half_tangent);
+  const Stress change = rotate_from_middle(law.elasticity().increment(now.strain), now.half_tangent);
   const Stress trial = {old.xx + change.xx, old.yy + change.yy, old.xy + change.xy, old.zz + change.zz};
   set_stress(state, i, trial);
   remember(flow, i, now.volume, old, trial, now.half_tangent);
@@ -152,17 +117,11 @@ GS_ALWAYS_INLINE double quad_mean(const Batch& batch, const Measure& measure, co
          (bottom + right + top + left);
 }
 
-/// `shared`: quad_mean().
-template <int T, class Law, class Measure>
-GS_ALWAYS_INLINE Pull pull(const Batch& batch, const Measure& measure, const double* state, double shared, int lane) {
+template <int T, class Measure>
+GS_ALWAYS_INLINE Pull pull_of(const Batch& batch, const Measure& measure, const Stress& stress, int lane) {
   const Vec2 a = batch.arm(T, lane);
   const Vec2 b = batch.arm((T + 1) % kQuadTriangles, lane);
   const double thickness = measure.thickness(batch.centre_x[lane] + (a.x + b.x) * (1.0 / 3.0));
-  Stress stress = stress_of(state, T * kBatchQuads + lane);
-  if constexpr (kShares<Measure, Law>) {
-    const double change = shared - mean(stress);
-    stress = {stress.xx + change, stress.yy + change, stress.xy, stress.zz + change};
-  }
   const double twice_area = cross(a, b);
   Pull found = {-thickness * traction(stress, b), thickness * traction(stress, a), 0.0, twice_area};
   if constexpr (Measure::kHoops) {
@@ -173,6 +132,17 @@ GS_ALWAYS_INLINE Pull pull(const Batch& batch, const Measure& measure, const dou
   return found;
 }
 
+/// `shared`: quad_mean().
+template <int T, class Law, class Measure>
+GS_ALWAYS_INLINE Pull pull(const Batch& batch, const Measure& measure, const double* state, double shared, int lane) {
+  Stress stress = stress_of(state, T * kBatchQuads + lane);
+  if constexpr (kShares<Measure, Law>) {
+    const double change = shared - mean(stress);
+    stress = {stress.xx + change, stress.yy + change, stress.xy, stress.zz + change};
+  }
+  return pull_of<T>(batch, measure, stress, lane);
+}
+
 /// Rows of corner contributions, so that neighbouring batches need not wait for each other's stores.
 struct Contributions {
   double* left_x;  ///< lane i: to node i
@@ -181,36 +151,51 @@ struct Contributions {
   double* right_y;
 };
 
+/// A quad's four triangles, counter-clockwise from the bottom.
+struct QuadPull {
+  Pull bottom, right, top, left;
+};
+
+/// Corner contributions of the quad at `at`. Returns the force on its centre.
+template <class Measure>
+GS_ALWAYS_INLINE Vec2 contribute(const QuadPull& quad, const Contributions& upper, const Contributions& lower, int at) {
+  const Vec2 lower_left = quad.bottom.on_a + quad.left.on_b;
+  const Vec2 lower_right = quad.right.on_a + quad.bottom.on_b;
+  const Vec2 upper_right = quad.top.on_a + quad.right.on_b;
+  const Vec2 upper_left = quad.left.on_a + quad.top.on_b;
+  lower.left_x[at] = lower_left.x;
+  lower.left_y[at] = lower_left.y;
+  lower.right_x[at] = lower_right.x;
+  lower.right_y[at] = lower_right.y;
+  upper.right_x[at] = upper_right.x;
+  upper.right_y[at] = upper_right.y;
+  upper.left_x[at] = upper_left.x;
+  upper.left_y[at] = upper_left.y;
+  Vec2 centre = {-(lower_left.x + lower_right.x + upper_right.x + upper_left.x),
+                 -(lower_left.y + lower_right.y + upper_right.y + upper_left.y)};
+  // In the plane, forces add up to zero; of the hoops' each node has the same.
+  if constexpr (Measure::kHoops) {
+    centre.x -= 3.0 * (quad.bottom.hoop + quad.right.hoop + quad.top.hoop + quad.left.hoop);
+  }
+  return centre;
+}
+
 template <class Law, class Measure>
 GS_ALWAYS_INLINE void force_lane(const Batch& batch, const Measure& measure, const double* state, int first,
                                  const Contributions& upper, const Contributions& lower, double* min_twice_area,
                                  double* centre_x, double* centre_y, int l) {
   double shared = 0.0;
   if constexpr (kShares<Measure, Law>) shared = quad_mean(batch, measure, state, l);
-  const Pull bottom = pull<0, Law>(batch, measure, state, shared, l);
-  const Pull right = pull<1, Law>(batch, measure, state, shared, l);
-  const Pull top = pull<2, Law>(batch, measure, state, shared, l);
-  const Pull left = pull<3, Law>(batch, measure, state, shared, l);
-  const double area_1 = bottom.twice_area < right.twice_area ? bottom.twice_area : right.twice_area;
-  const double area_2 = top.twice_area < left.twice_area ? top.twice_area : left.twice_area;
+  const QuadPull quad = {pull<0, Law>(batch, measure, state, shared, l), pull<1, Law>(batch, measure, state, shared, l),
+                         pull<2, Law>(batch, measure, state, shared, l),
+                         pull<3, Law>(batch, measure, state, shared, l)};
+  const double area_1 = quad.bottom.twice_area < quad.right.twice_area ? quad.bottom.twice_area : quad.right.twice_area;
+  const double area_2 = quad.top.twice_area < quad.left.twice_area ? quad.top.twice_area : quad.left.twice_area;
   const double area = area_1 < area_2 ? area_1 : area_2;
   min_twice_area[l] = area < min_twice_area[l] ? area : min_twice_area[l];
-  const Vec2 lower_left = bottom.on_a + left.on_b;
-  const Vec2 lower_right = right.on_a + bottom.on_b;
-  const Vec2 upper_right = top.on_a + right.on_b;
-  const Vec2 upper_left = left.on_a + top.on_b;
-  lower.left_x[first + l] = lower_left.x;
-  lower.left_y[first + l] = lower_left.y;
-  lower.right_x[first + l] = lower_right.x;
-  lower.right_y[first + l] = lower_right.y;
-  upper.right_x[first + l] = upper_right.x;
-  upper.right_y[first + l] = upper_right.y;
-  upper.left_x[first + l] = upper_left.x;
-  upper.left_y[first + l] = upper_left.y;
-  centre_x[l] = -(lower_left.x + lower_right.x + upper_right.x + upper_left.x);
-  // In the plane, forces add up to zero; of the hoops' each node has the same.
-  if constexpr (Measure::kHoops) centre_x[l] -= 3.0 * (bottom.hoop + right.hoop + top.hoop + left.hoop);
-  centre_y[l] = -(lower_left.y + lower_right.y + upper_right.y + upper_left.y);
+  const Vec2 centre = contribute<Measure>(quad, upper, lower, first + l);
+  centre_x[l] = centre.x;
+  centre_y[l] = centre.y;
 }
 
 /// Internal forces (they pull back: minus the gradient of the strain energy) with the geometry at the end of the step.
@@ -255,7 +240,7 @@ template <class Law, class Measure>
 void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   const Contributions upper = contributions(row.scratch, row.quads, 0);
   const Contributions lower = contributions(row.scratch, row.quads, 1);
-  const double parameter = step_parameter(law, row.step);
+  const double parameter = law.step_parameter(row.step);
   double min_twice_area[kBatchQuads];
   for (double& area : min_twice_area) area = 1e300;
   double plastic_work[kBatchQuads] = {};
@@ -264,14 +249,14 @@ void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   row.yielding = 0;
   row.unconverged = 0;
   alignas(kAlignment) Batch batch;
-  alignas(kAlignment) typename Correction<Law>::Memory flow;
+  alignas(kAlignment) typename Law::Memory flow;
   double* state = row.state;
   for (int first = 0; first < row.quads; first += kBatchQuads) {
     load(row, first, batch);
     predict(batch, law, measure, row.step, state, flow);
     correct(law, state, flow, parameter, lanes_of(row, first), plastic_work, row);
     add_forces<Law>(batch, measure, state, first, upper, lower, row, min_twice_area);
-    state += Correction<Law>::kState * kBatchTriangles;
+    state += Law::kTraits.state * kBatchTriangles;
   }
   for (const double work : plastic_work) row.plastic_work += work;
   row.min_twice_area = min_twice_area[0];

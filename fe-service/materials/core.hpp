@@ -16,7 +16,14 @@
 
 #include "fe-service/materials/elastic.hpp"
 
+namespace grainstep::scene {
+class Structure;
+}
+
 namespace grainstep::fe {
+
+/// After the stress: transverse compressive plastic strain, and the direction of the material axes.
+enum CoreComponent : int { kCompaction = kStressState, kAxisCosine, kAxisSine, kCoreState };
 
 struct Core {
   Elastic elastic;
@@ -25,6 +32,18 @@ struct Core {
   double tangent;    ///< E_t, Pa
   double viscosity;  ///< eta, Pa s
   double shear;      ///< strength in shear, Pa
+
+  static constexpr LawTraits kTraits = {
+      .word = "core", .state = kCoreState, .flow = kCompaction, .keeps_volume = true, .seconds = 1.0 / 80e6};
+  using Memory = FullMemory;
+
+  /// Throws InputError where the layer cannot be a core (material.cpp).
+  static Core from(const scene::Structure& structure, int index);
+
+  [[nodiscard]] GS_ALWAYS_INLINE const Elastic& elasticity() const { return elastic; }
+  /// eta/dt.
+  [[nodiscard]] GS_ALWAYS_INLINE double step_parameter(double step) const { return viscosity / step; }
+  [[nodiscard]] double initial(int component) const { return component == kAxisCosine ? 1.0 : 0.0; }
 };
 
 /// Of the stress, relative.

@@ -1,7 +1,7 @@
 /// @file Isotropic linear elasticity in rate form: stress rate = lambda tr(D) I + 2 mu D.
 #pragma once
 
-#include "fe-service/materials/tensor.hpp"
+#include "fe-service/materials/batch.hpp"
 
 namespace grainstep::fe {
 
@@ -10,9 +10,23 @@ struct Elastic {
   double mu;       ///< shear modulus G, Pa
   double density;  ///< kg/m^3, undeformed
 
+  static constexpr LawTraits kTraits = {
+      .word = "elastic", .state = kStressState, .flow = kNoFlow, .keeps_volume = true, .seconds = 1.0 / 200e6};
+  using Memory = RadialMemory;
+
   static Elastic from_young(double young, double poisson, double density) {
     return {young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)), density};
   }
+
+  template <class Structure>
+  static Elastic from(const Structure& structure, int index) {
+    const auto& layer = structure.layers(index);
+    return from_young(layer.young(), layer.poisson(), layer.density());
+  }
+
+  [[nodiscard]] GS_ALWAYS_INLINE const Elastic& elasticity() const { return *this; }
+  [[nodiscard]] GS_ALWAYS_INLINE double step_parameter(double /*step*/) const { return 0.0; }
+  [[nodiscard]] double initial(int /*component*/) const { return 0.0; }
 
   /// Modulus of a bar that cannot strain sideways, Pa; its square root over density is the fastest wave's speed.
   [[nodiscard]] GS_ALWAYS_INLINE double longitudinal_modulus() const { return lambda + 2.0 * mu; }
@@ -29,5 +43,7 @@ struct Elastic {
     return contract(s, s) / (4.0 * mu) + 0.5 * p * p / (lambda + 2.0 / 3.0 * mu);
   }
 };
+
+GS_ALWAYS_INLINE void correct(const Elastic&, double*, const RadialMemory&, double, int, double*, RowOutcome&) {}
 
 }  // namespace grainstep::fe

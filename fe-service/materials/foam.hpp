@@ -21,11 +21,23 @@
 
 namespace grainstep::fe {
 
+/// After the stress: e_hat.
+enum FoamComponent : int { kFoamStrain = kStressState, kFoamState };
+
 struct Foam {
   Elastic elastic;
   double strength;   ///< s_pl, Pa
   double locked;     ///< e_hat at which the plateau ends, -ln(1 - eps_D)
   double viscosity;  ///< eta, Pa s
+
+  static constexpr LawTraits kTraits = {
+      .word = nullptr, .state = kFoamState, .flow = kFoamStrain, .keeps_volume = false, .seconds = 1.0 / 80e6};
+  using Memory = FullMemory;
+
+  [[nodiscard]] GS_ALWAYS_INLINE const Elastic& elasticity() const { return elastic; }
+  /// eta/dt.
+  [[nodiscard]] GS_ALWAYS_INLINE double step_parameter(double step) const { return viscosity / step; }
+  [[nodiscard]] double initial(int /*component*/) const { return 0.0; }
 };
 
 /// Of the flow rule, relative.

@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "base/error.hpp"
 #include "scene/core.hpp"
+#include "scene/declaration.hpp"
+#include "scene/suggest.hpp"
 
 namespace grainstep::fe {
-namespace {
 
-Core make_core(const scene::Structure& structure, int layer) {
+Core Core::from(const scene::Structure& structure, int layer) {
   const scene::Layer& core = structure.layers(layer);
   const scene::Layer& face = structure.layers(0);
   const scene::Core& keys = structure.core();
@@ -35,36 +37,51 @@ Core make_core(const scene::Structure& structure, int layer) {
           keys.shear_ratio() * strength};
 }
 
-}  // namespace
+namespace {
 
-Material make_material(const scene::Structure& structure, int index) {
-  const scene::Layer& layer = structure.layers(index);
-  const Elastic elastic = Elastic::from_young(layer.young(), layer.poisson(), layer.density());
-  switch (layer.material()) {
-    case scene::Layer::MATERIAL_ELASTIC:
-      return elastic;
-    case scene::Layer::MATERIAL_DH36:
-      return Dh36{elastic,
-                  layer.yield_strength(),
-                  layer.hardening_factor(),
-                  layer.hardening_exponent(),
-                  layer.rate_factor(),
-                  layer.reference_rate()};
-    case scene::Layer::MATERIAL_CORE:
-      return make_core(structure, index);
-    default:
-      throw InputError(
-          fmt::format("structure.layers[{}].material: grainstep-fe knows `dh36`, `elastic` and `core`, found value "
-                      "number {}",
-                      index, static_cast<int>(layer.material())));
+template <class... Law>
+std::vector<std::string> words(LawList<Law...>) {
+  std::vector<std::string> found;
+  for (const char* word : {Law::kTraits.word...}) {
+    if (word != nullptr) found.emplace_back(word);
+  }
+  return found;
+}
+
+/// Makes the law if the layer's word is its own.
+template <class Law>
+void make_if(const std::string& word, const scene::Structure& structure, int index, std::optional<Material>& found) {
+  if constexpr (Law::kTraits.word != nullptr) {
+    if (word == Law::kTraits.word) found = Law::from(structure, index);
   }
 }
 
+template <class... Law>
+std::optional<Material> make(LawList<Law...>, const std::string& word, const scene::Structure& structure, int index) {
+  std::optional<Material> found;
+  (make_if<Law>(word, structure, index, found), ...);
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> layer_words() { return words(Laws{}); }
+
+Material make_material(const scene::Structure& structure, int index) {
+  const int number = static_cast<int>(structure.layers(index).material());
+  const std::string word = scene::word_for(*scene::Layer::Material_descriptor(), number);
+  if (const auto found = make(Laws{}, word, structure, index)) return *found;
+  throw InputError(fmt::format("structure.layers[{}].material: grainstep-fe knows {}, found {}", index,
+                               scene::join_words(layer_words()),
+                               word.empty() ? fmt::format("value number {}", number) : word));
+}
+
 const Elastic& elastic_part(const Material& material) {
-  if (const auto* steel = std::get_if<Dh36>(&material)) return steel->elastic;
-  if (const auto* core = std::get_if<Core>(&material)) return core->elastic;
-  if (const auto* foam = std::get_if<Foam>(&material)) return foam->elastic;
-  return std::get<Elastic>(material);
+  return std::visit([](const auto& law) -> const Elastic& { return law.elasticity(); }, material);
+}
+
+const LawTraits& traits_of(const Material& material) {
+  return std::visit([](const auto& law) -> const LawTraits& { return law.kTraits; }, material);
 }
 
 }  // namespace grainstep::fe

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "orchestrator/ending.hpp"
 #include "orchestrator/event_loop.hpp"
 #include "orchestrator/interrupted.hpp"
 #include "orchestrator/run_facts.hpp"
@@ -26,8 +27,8 @@ using transport::Clock;
 
 constexpr auto longest_wait = std::chrono::milliseconds(500);
 constexpr auto look_interval = std::chrono::seconds(2);
-constexpr std::chrono::milliseconds grace{
-    8000};  // a run that is asked to end tells its participants and writes a summary
+// A run that is asked to end tells its participants, waits for what they still have to say and writes a summary.
+constexpr std::chrono::milliseconds grace{20'000};
 constexpr std::size_t tail_lines = 5;
 
 double seconds_since(Clock::time_point when) { return std::chrono::duration<double>(Clock::now() - when).count(); }
@@ -49,8 +50,7 @@ void look_at(Active& run, const fs::path& directory) {
   if (Clock::now() - run.looked < look_interval || !fs::exists(files.results(), ignored)) return;
   run.looked = Clock::now();
   try {
-    run.fraction =
-        std::clamp(orchestrator::read_progress(files.results())["progress"].get<double>(), run.fraction, 1.0);
+    run.fraction = std::clamp(orchestrator::read_progress(files)["progress"].get<double>(), run.fraction, 1.0);
   } catch (const InputError&) {
   }
 }
@@ -76,6 +76,10 @@ class Executor {
       end_all();
       progress_.finish();
       return false;
+    } catch (...) {  // nobody foresaw it: the runs end in the same order, and their tables are written
+      end_all();
+      progress_.finish();
+      throw;
     }
     share();
     progress_.finish();
@@ -102,8 +106,9 @@ class Executor {
     queue_.erase(queue_.begin());
     try {
       launch(run);
-    } catch (const std::exception& error) {  // the directory cannot be made, the program is not there
-      fail(run.point, static_cast<int>(ExitCode::bad_input), error.what());
+    } catch (...) {  // the directory cannot be made, the program is not there, the system gives no process
+      const orchestrator::Ending ending = orchestrator::ending_of_current_exception();
+      fail(run.point, static_cast<int>(ending.code), ending.reason);
       active_.pop_back();
       ++done_;
     }
@@ -209,9 +214,9 @@ class Executor {
     const auto deadline = Clock::now() + grace;
     for (Active& run : active_) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+      loop_.remove(run.process->descriptor());
       run.process->terminate(std::max(left, std::chrono::milliseconds(1)));
       keep_if_done(run);
-      loop_.remove(run.process->descriptor());
     }
   }
 

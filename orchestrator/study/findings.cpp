@@ -1,8 +1,9 @@
 #include "study/findings.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <set>
+
+#include "base/number_text.hpp"
 
 namespace grainstep::study {
 namespace {
@@ -65,13 +66,6 @@ Verdict verdict(const Plan& plan, const std::vector<Outcome>& outcomes, const Nu
 }
 
 }  // namespace
-
-std::string figure(double value, int significant) {
-  if (!std::isfinite(value)) return "-";
-  char out[40];
-  std::snprintf(out, sizeof out, "%.*g", significant, value);
-  return out;
-}
 
 const char* state_name(Verdict::State state) {
   switch (state) {

@@ -28,7 +28,4 @@ struct Verdict {
 
 [[nodiscard]] const char* state_name(Verdict::State state);
 
-/// `digits` significant ones; "-" for what is not a number.
-[[nodiscard]] std::string figure(double value, int digits);
-
 }  // namespace grainstep::study

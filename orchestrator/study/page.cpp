@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "orchestrator/summary.hpp"
 #include "results/atomic_file.hpp"
 #include "results/hdf5.hpp"

@@ -1,16 +1,15 @@
 #include "study/study_command.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "process/child_process.hpp"
 #include "process/launch.hpp"
+#include "results/directory_lock.hpp"
 #include "study/execute.hpp"
 #include "study/page.hpp"
 
@@ -19,25 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using orchestrator::StudyOptions;
-
-/// One study per directory at a time. The kernel forgets the lock with the process, whatever ends it.
-class Lock {
- public:
-  explicit Lock(const fs::path& root)
-      : file_(::open((root / "study.lock").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)) {
-    if (file_ < 0) throw InputError(root.string() + ": cannot be written. Choose another directory with --out.");
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(file_);
-      throw InputError(root.string() + ": another grainstep study works in this directory");
-    }
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-  ~Lock() { ::close(file_); }
-
- private:
-  int file_;
-};
 
 fs::path root_of(const StudyOptions& options) {
   const std::string name = options.study.stem().string() + (options.full ? "-full" : "");
@@ -124,25 +104,16 @@ int exit_code(const Report& report, bool whole) {
   return static_cast<int>(fails ? ExitCode::numerical : ExitCode::done);
 }
 
-}  // namespace
+Execution execution_of(const StudyOptions& options) {
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  return {.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(cores),
+          .ranks = options.ranks,
+          .progress = orchestrator::Progress::style_for(stdout, options.quiet)};
+}
 
-int study(const StudyOptions& options) {
-  const Plan plan = load_plan(options.study, options.full ? Fidelity::full : Fidelity::recommended);
-  const fs::path root = root_of(options);
-  std::vector<Outcome> outcomes = locate(plan, root, options.reuse);
-  choose(plan, options, root, outcomes);
-  if (options.list) {
-    list(plan, outcomes);
-    return 0;
-  }
-  std::error_code error;
-  fs::create_directories(root, error);
-  const Lock lock(root);
-  const int jobs =
-      options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const auto style = orchestrator::Progress::style_for(stdout, options.quiet);
-  for (const PlannedPoint& point : plan.points) orchestrator::print_warnings(point.preparation, point.id + ": ");
-  const bool whole = execute(plan, {.jobs = jobs, .ranks = options.ranks, .progress = style}, outcomes);
+/// Tables, pictures, page and the lines on the terminal. Returns the exit code.
+int report_on(const Plan& plan, const StudyOptions& options, const fs::path& root, const std::vector<Outcome>& outcomes,
+              bool whole) {
   Numbers numbers(plan, outcomes);
   numbers.compute_columns();
   const std::vector<Verdict> verdicts = judge(plan, outcomes, numbers);
@@ -154,6 +125,41 @@ int study(const StudyOptions& options) {
                "grainstep study " + options.study.string() + (options.full ? " --full" : ""));
   if (!options.quiet) conclude(report, root);
   return exit_code(report, whole);
+}
+
+}  // namespace
+
+int study(const StudyOptions& options) {
+  const Plan plan = load_plan(options.study, options.full ? Fidelity::full : Fidelity::recommended);
+  const fs::path root = root_of(options);
+  for (const fs::path& other : options.reuse) {
+    std::error_code ignored;
+    if (!fs::is_directory(other, ignored)) throw InputError("--reuse " + other.string() + ": no such directory");
+  }
+  const auto look_around = [&] {
+    std::vector<Outcome> outcomes = locate(plan, root, options.reuse);
+    choose(plan, options, root, outcomes);
+    return outcomes;
+  };
+  if (options.list) {
+    list(plan, look_around());
+    return 0;
+  }
+  std::error_code error;
+  fs::create_directories(root, error);
+  const results::DirectoryLock lock(root / "study.lock", "a study");
+  std::vector<Outcome> outcomes = look_around();
+  for (const PlannedPoint& point : plan.points) orchestrator::print_warnings(point.preparation, point.id + ": ");
+  bool whole = false;
+  std::exception_ptr unforeseen;
+  try {
+    whole = execute(plan, execution_of(options), outcomes);
+  } catch (...) {  // the tables of what was computed are written first
+    unforeseen = std::current_exception();
+  }
+  const int code = report_on(plan, options, root, outcomes, whole);
+  if (unforeseen) std::rethrow_exception(unforeseen);
+  return code;
 }
 
 }  // namespace grainstep::study

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.hpp"
 #include "orchestrator/summary.hpp"
 #include "results/atomic_file.hpp"
 #include "scene/declaration.hpp"
-#include "scene/number_text.hpp"
 
 namespace grainstep::study {
 namespace {
@@ -22,7 +22,7 @@ std::string cell(const std::string& text) {
   return out + "\"";
 }
 
-std::string cell(double value) { return std::isfinite(value) ? scene::number_text(value) : ""; }
+std::string cell(double value) { return std::isfinite(value) ? number_text(value) : ""; }
 
 std::string relative_to(const fs::path& root, const fs::path& path) {
   const fs::path relative = path.lexically_relative(root);

@@ -7,14 +7,15 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "patience.hpp"
 
 namespace grainstep::transport::testing {
 namespace {
 
+using grainstep::testing::soon;
+
 class ChannelContract : public ::testing::TestWithParam<Implementation> {
  protected:
-  static Deadline soon() { return in(std::chrono::seconds(30)); }
-
   static Bytes bytes(std::uint64_t value, std::size_t size = sizeof(std::uint64_t)) {
     Bytes result(size);
     for (std::size_t i = 0; i < size; ++i) {
@@ -101,7 +102,7 @@ TEST_P(ChannelContract, poll_on_the_wakeup_descriptor_sees_every_message) {
       ASSERT_EQ(received_, bytes(taken++));
     }
     pollfd item{right_.wakeup(), POLLIN, 0};
-    ASSERT_TRUE(taken == 100 || ::poll(&item, 1, 30'000) == 1) << "after message " << taken;
+    ASSERT_TRUE(taken == 100 || ::poll(&item, 1, grainstep::testing::patience_ms) == 1) << "after message " << taken;
   }
   sender.join();
 }
@@ -148,7 +149,7 @@ TEST_P(ChannelContract, a_loss_wakes_poll) {
     try {
       ASSERT_FALSE(right_.receive(received_, Clock::now()));
       pollfd item{right_.wakeup(), POLLIN, 0};
-      ASSERT_EQ(::poll(&item, 1, 30'000), 1);
+      ASSERT_EQ(::poll(&item, 1, grainstep::testing::patience_ms), 1);
     } catch (const PeerError&) {
       lost = true;
     }

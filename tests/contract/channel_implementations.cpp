@@ -1,14 +1,13 @@
 #include <future>
 
+#include "base/temporary_directory.hpp"
 #include "channel_contract.hpp"
-#include "temporary_directory.hpp"
+#include "patience.hpp"
 #include "transport/in_process_channel.hpp"
 #include "transport/zmq_channel.hpp"
 
 namespace grainstep::transport::testing {
 namespace {
-
-using grainstep::testing::TemporaryDirectory;
 
 ConnectedPair in_process() {
   auto [left, right] = make_in_process_pair();
@@ -17,7 +16,7 @@ ConnectedPair in_process() {
 
 /// The binding end admits the other while it waits, so that one connects from a second thread.
 ConnectedPair zmq_pair(const std::string& endpoint, const ZmqOptions& options, std::shared_ptr<void> surroundings) {
-  const Deadline deadline = in(std::chrono::seconds(30));
+  const Deadline deadline = grainstep::testing::soon();
   auto left = ZmqChannel::bind(endpoint, options);
   auto connecting =
       std::async(std::launch::async, [&] { return ZmqChannel::connect(left->endpoint(), deadline, options); });

@@ -1,4 +1,5 @@
-// The energy balance of a body in free motion: kinetic + elastic + plastic is constant to second order of the step.
+// The energy balance of a body in free motion: kinetic + elastic + plastic is constant to second order of the step, up
+// to the floor of what is called elastic.
 #include <gtest/gtest.h>
 
 #include "../support/fe_motion.hpp"
@@ -13,6 +14,31 @@ struct Balance {
   double end = 0.0;      ///< change at the end, with its sign
   double plastic = 0.0;  ///< plastic work at the end
   double elastic = 0.0;  ///< largest elastic energy; both over the start
+  double summed = 0.0;   ///< as drift, with the work of the elastic strains in the place of the elastic energy
+};
+
+/// Work of the elastic strains, J: the growth of stored energy per volume, times the volume at the middle of each step.
+class ElasticWork {
+ public:
+  explicit ElasticWork(const Body& body) { add(body); }
+
+  void add(const Body& body) {
+    std::size_t at = 0;
+    test::for_each_triangle(body, [&](int row, int column, int triangle) {
+      const double volume = body.triangle(row, column, triangle).area() * thickness(body.measure(), 0.0);
+      const double stored = elastic_part(body.material(row)).stored_energy(body.stress(row, column, triangle));
+      if (at == before_.size()) before_.push_back({volume, stored});
+      auto& [volume_before, stored_before] = before_[at++];
+      sum_ += 0.5 * (volume_before + volume) * (stored - stored_before);
+      volume_before = volume;
+      stored_before = stored;
+    });
+  }
+  [[nodiscard]] double sum() const { return sum_; }
+
+ private:
+  std::vector<std::pair<double, double>> before_;
+  double sum_ = 0.0;
 };
 
 struct Motion {
@@ -32,6 +58,7 @@ Balance free_motion(const Motion& motion, int halvings) {
   });
   const double start = kinetic_energy(body, Velocities::of(body));
   double plastic = 0.0;
+  ElasticWork work(body);
   Balance result;
   for (int n = 0; n <= steps; ++n) {
     const Velocities before = Velocities::of(body);
@@ -42,8 +69,11 @@ Balance free_motion(const Motion& motion, int halvings) {
     result.end = (kinetic_energy(body, at) + elastic + plastic) / start - 1.0;
     result.drift = std::max(result.drift, std::abs(result.end));
     result.elastic = std::max(result.elastic, elastic / start);
+    const double conserved = n == 0 ? start : conserved_kinetic_energy(body, before, at);
+    result.summed = std::max(result.summed, std::abs((conserved + work.sum() + plastic) / start - 1.0));
     body.drift(step);
     plastic += body.sweep(step).plastic_work;
+    work.add(body);
   }
   result.plastic = plastic / start;
   return result;
@@ -67,6 +97,25 @@ TEST(FeEnergy, ElasticBalanceIsOfSecondOrder) {
         "Energy of the structure, elastic", "order in the step, 1/" + std::to_string(2 << i) + " of the stable one on");
     order.expected = 2.0;
     order.found = std::log2(drift[i] / drift[i + 1]);
+    order.tolerance = 0.1;
+    order.reason = "discretisation: asymptotic range";
+    verification::check(order);
+  }
+}
+
+// What is done on the elements closes to second order, with flow or without, down to 1e-9 and no floor: the defect
+// below is all in what stored energy is taken to be.
+TEST(FeEnergy, WorkOfTheStrainsClosesToSecondOrder) {
+  for (const Motion& motion :
+       {Motion{scene::Layer::MATERIAL_ELASTIC, 20.0, 600}, Motion{scene::Layer::MATERIAL_DH36, 60.0, 600}}) {
+    const bool flows = motion.material == scene::Layer::MATERIAL_DH36;
+    const double drift[] = {free_motion(motion, 0).summed, free_motion(motion, 1).summed};
+    EXPECT_LT(drift[0], 1e-7);
+    verification::Comparison order =
+        comparison(flows ? "Energy of the structure, flowing" : "Energy of the structure, elastic strains of 1e-3",
+                   "order in the step, with the work of the elastic strains");
+    order.expected = 2.0;
+    order.found = std::log2(drift[0] / drift[1]);
     order.tolerance = 0.1;
     order.reason = "discretisation: asymptotic range";
     verification::check(order);

@@ -22,7 +22,7 @@ int run(const grainstep::orchestrator::RunOptions& options) {
   using namespace grainstep;
   const auto preparation = orchestrator::prepare(options);
   const results::RunDirectory directory(options.out);
-  directory.prepare(results::Existing::refuse);
+  const results::DirectoryLock lock = directory.prepare(results::Existing::refuse);
   auto [impactor, impactor_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "impactor"});
   auto [structure, structure_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "structure"});
   std::thread particles([&preparation, end = std::move(impactor_end)] {

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
+#include "patience.hpp"
 #include "process/child_process.hpp"
-#include "temporary_directory.hpp"
 #include "transport/zmq_channel.hpp"
 #include "wire/message_channel.hpp"
 
@@ -18,13 +19,11 @@ constexpr double stiffness = 2e5;  // N/m
 constexpr double blow = 0.6;       // N s, in window 0
 constexpr std::uint64_t windows = 400;
 
-transport::Deadline soon() { return transport::in(std::chrono::seconds(60)); }
-
 class ExampleParticipant : public ::testing::Test {
  protected:
   template <class Message>
   Message hear() {
-    const wire::Frame* frame = messages_.receive(soon());
+    const wire::Frame* frame = messages_.receive(testing::soon());
     Message message;
     if (frame == nullptr) {
       throw std::runtime_error("silence; its log: " + child_.log_tail(20));
@@ -70,7 +69,7 @@ class ExampleParticipant : public ::testing::Test {
     return result;
   }
 
-  testing::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::unique_ptr<transport::ZmqChannel> channel_ =
       transport::ZmqChannel::bind("ipc://" + (directory_.path() / "structure").string());
   wire::MessageChannel messages_{*channel_, "example"};
@@ -111,7 +110,7 @@ TEST_F(ExampleParticipant, swings_as_a_mass_on_a_spring) {
 
   messages_.send(wire::Stop());
   EXPECT_EQ(hear<wire::Finished>().timing().steps(), windows + 1);
-  ASSERT_TRUE(child_.wait(std::chrono::seconds(60)));
+  ASSERT_TRUE(child_.wait(testing::patience));
   EXPECT_EQ(child_.exit_code(), 0) << child_.log_tail(20);
 }
 
@@ -120,14 +119,14 @@ TEST_F(ExampleParticipant, refuses_forces_out_of_order) {
   messages_.send(forces(5, -blow));
   const auto error = hear<wire::Error>();
   EXPECT_EQ(error.kind(), wire::Error::PROTOCOL);
-  ASSERT_TRUE(child_.wait(std::chrono::seconds(60)));
+  ASSERT_TRUE(child_.wait(testing::patience));
   EXPECT_EQ(child_.exit_code(), 4);
 }
 
 TEST_F(ExampleParticipant, ends_with_its_orchestrator) {
   introduce();
   channel_.reset();
-  ASSERT_TRUE(child_.wait(std::chrono::seconds(60)));
+  ASSERT_TRUE(child_.wait(testing::patience));
   EXPECT_EQ(child_.exit_code(), 4);
   EXPECT_EQ(child_.log_tail(1), "error: orchestrator: connection lost\n");
 }

@@ -3,9 +3,15 @@ import resource
 import time
 import unittest
 
-from runs import BIN, LONG, SOURCE, Run, descendants, json, os, pathlib, signal, subprocess, tempfile, until
+from runs import (AT_ONCE, BIN, LONG, PATIENCE, SOURCE, Run, descendants, json, os, pathlib, signal, subprocess,
+                  tempfile, until)
 
-LOST = 5.0  # s: what a lost participant may cost
+
+def show(directory):
+    """What `grainstep show` says, as an object and as text."""
+    said = [subprocess.run([BIN / "grainstep", "show", directory, *options], capture_output=True, text=True,
+                           timeout=PATIENCE) for options in (["--json"], [])]
+    return json.loads(said[0].stdout), said[1].stdout
 
 
 class Losing(unittest.TestCase):
@@ -13,7 +19,7 @@ class Losing(unittest.TestCase):
         with Run(*LONG) as run:
             run.wait_for_rows()
             os.kill(run.process_of(side), how)
-            run.end(LOST)
+            run.end(AT_ONCE)
             self.assertEqual(run.code, 4, run.stderr)
             self.assertTrue(run.stderr.startswith(f"grainstep: {side}: "), run.stderr)
             run.left_over()
@@ -40,35 +46,35 @@ class FrozenParticipant(Losing):
 
 
 class FrozenOrchestrator(unittest.TestCase):
-    def test_says_that_it_stood_still_itself(self):
+    def test_a_machine_that_stalls_for_some_seconds_loses_no_run(self):
         with Run(*LONG) as run:
             run.wait_for_rows()
             os.kill(run.process.pid, signal.SIGSTOP)
-            time.sleep(LOST)  # the fault itself: silence, for longer than participants bear
+            time.sleep(5.0)  # the fault itself
             os.kill(run.process.pid, signal.SIGCONT)
-            run.end(LOST)
-            self.assertEqual(run.code, 4, run.stderr)
-            self.assertIn("the orchestrator itself stood still", run.stderr)
-            run.left_over()
-            self.assertGreaterEqual(run.rows(), 1)
+            self.assertEqual(run.end().code, 0, run.stderr)
 
 
 class AbsentParticipant(unittest.TestCase):
     def test_never_connected(self):
-        with Run("--external", "impactor", "--connect-deadline", "1") as run:
-            run.family = until(lambda: descendants(run.process.pid), "a structure")
-            run.end()
-            self.assertEqual(run.code, 4)
-            self.assertIn("grainstep: impactor: did not connect within 1 s", run.stderr)
-            self.assertEqual(len(run.family), 1, "the structure was started")
-            run.left_over()
-
+        seconds = 1
+        while True:  # a busy machine takes longer to start the structure
+            with Run("--external", "impactor", "--connect-deadline", str(seconds)) as run:
+                run.family = until(lambda: descendants(run.process.pid), "a structure")
+                run.end()
+                self.assertEqual(run.code, 4)
+                self.assertEqual(len(run.family), 1, "the structure was started")
+                run.left_over()
+                if "impactor and structure: did not connect" not in run.stderr or seconds > PATIENCE:
+                    break
+            seconds *= 2
+        self.assertIn(f"grainstep: impactor: did not connect within {seconds} s", run.stderr)
 
     EXTERNAL = ("--external", "impactor", "--external", "structure")
 
     def test_nobody_connected(self):
         with Run(*self.EXTERNAL, "--connect-deadline", "1") as run:
-            run.end(LOST)
+            run.end()
             self.assertEqual(run.code, 4)
             self.assertIn("impactor and structure: did not connect within 1 s", run.stderr)
 
@@ -76,16 +82,16 @@ class AbsentParticipant(unittest.TestCase):
         with Run(*self.EXTERNAL) as run:
             until(lambda: "grainstep-dem" in run.process.stdout.readline(), "the second command to start")
             run.process.send_signal(signal.SIGINT)
-            run.end(LOST)
+            run.end(AT_ONCE)
             self.assertEqual(run.code, 130, run.stderr)
 
 
 class Interrupted(unittest.TestCase):
     def interrupt(self, how):
-        with Run(*LONG) as run:
+        with Run(*LONG, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL)) as run:
             run.wait_for_rows()
             run.process.send_signal(how)
-            run.end(LOST)
+            run.end(AT_ONCE)
             self.assertEqual(run.code, 130, run.stderr)
             self.assertEqual(run.summary()["status"], "interrupted")
             self.assertGreaterEqual(run.rows(), 1)
@@ -109,8 +115,72 @@ class Interrupted(unittest.TestCase):
             run.left_over()
             self.assertEqual(list(sockets.glob("grainstep-*")), [], "no socket stays")
             self.assertGreaterEqual(run.rows(), 1)
-            shown = subprocess.run([BIN / "grainstep", "show", run.out, "--json"], capture_output=True, text=True)
-            self.assertEqual(json.loads(shown.stdout)["status"], "running")
+            facts, text = show(run.out)
+            self.assertEqual(facts["status"], "killed")
+            self.assertIn(f"ended without a summary: process {run.process.pid} on ", text)
+            with Run(out=run.out) as again:
+                again.end()
+                self.assertEqual(again.code, 2)
+                self.assertIn("holds a run already", again.stderr)
+
+
+class Unforeseen(unittest.TestCase):
+    def test_a_refusal_of_the_system_ends_the_run_in_order(self):
+        """The system refuses the orchestrator's next poll(), once: a library in front of it says so."""
+        with tempfile.TemporaryDirectory() as scratch:
+            trigger = pathlib.Path(scratch) / "refuse"
+            with Run(*LONG, env={**os.environ, "LD_PRELOAD": os.environ["GRAINSTEP_REFUSE_POLL"],
+                                 "GRAINSTEP_REFUSE": str(trigger)}) as run:
+                run.wait_for_rows()
+                trigger.touch()
+                run.end()
+                self.assertEqual(run.code, 1, run.stderr)
+                self.assertEqual(run.stderr.count("grainstep: "), 1, run.stderr)
+                self.assertIn("Invalid argument", run.stderr)
+                run.left_over()
+                self.assertGreaterEqual(run.rows(), 1)
+                summary = run.summary()
+                self.assertEqual((summary["status"], summary["exit_code"]), ("failed", 1))
+                self.assertIn("Invalid argument", summary["reason"])
+                self.assertEqual(show(run.out)[0]["status"], "failed")
+
+    def test_a_log_of_any_bytes_does_not_cost_the_summary(self):
+        with Run(*LONG) as run:
+            run.wait_for_rows()
+            with open(run.out / "logs/structure.log", "ab") as log:
+                log.write(b"\xff\xfe no text of ours\n")
+            os.kill(run.process_of("structure"), signal.SIGKILL)
+            run.end()
+            self.assertEqual(run.code, 4, run.stderr)
+            self.assertNotIn("libprotobuf", run.stderr)
+            self.assertIn("no text of ours", run.summary()["reason"])
+
+
+class TwoRuns(unittest.TestCase):
+    def test_the_second_in_a_directory_is_refused_and_the_first_goes_on(self):
+        with Run(*LONG) as first:
+            first.wait_for_rows()
+            facts, text = show(first.out)
+            self.assertEqual(facts["status"], "running")
+            self.assertIn(f"running (process {first.process.pid} on ", text)
+            for options in ((), ("--force",)):
+                with self.subTest(options), Run(*options, out=first.out) as second:
+                    self.assertEqual(second.end().code, 2, second.stderr)
+                    self.assertIn(f"a run works in this directory (process {first.process.pid} on ", second.stderr)
+                    self.assertIn("--out", second.stderr)
+            self.assertEqual(first.end().code, 0, first.stderr)
+            self.assertEqual(first.summary()["status"], "done")
+
+    def test_a_replaced_run_leaves_nothing_behind(self):
+        with Run("--set", "impactor.type=foam", "--set", "time.end=0.02") as foam:
+            self.assertEqual(foam.end().code, 0, foam.stderr)
+            self.assertTrue((foam.out / "impactor.pvd").exists())
+            (foam.out / "notes.txt").write_text("mine")
+            with Run("--force", "--set", "time.end=0.02", out=foam.out) as slug:
+                self.assertEqual(slug.end().code, 0, slug.stderr)
+            self.assertFalse((foam.out / "impactor.pvd").exists())
+            self.assertEqual(list((foam.out / "paraview").glob("impactor_*")), [])
+            self.assertEqual((foam.out / "notes.txt").read_text(), "mine")
 
 
 class Numerical(unittest.TestCase):
@@ -171,7 +241,7 @@ class BadInput(unittest.TestCase):
         for command in (["check"], ["run", "--out", "somewhere"]):
             with tempfile.TemporaryDirectory() as place:
                 done = subprocess.run([BIN / "grainstep", *command, SOURCE / "configs/hard/stiffness-down.yaml"],
-                                      cwd=place, text=True, capture_output=True, timeout=60)
+                                      cwd=place, text=True, capture_output=True, timeout=PATIENCE)
             self.assertIn("grainstep: warning: impactor.slug.particle.normal_stiffness: too soft for this speed",
                           done.stderr)
 

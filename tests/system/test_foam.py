@@ -2,7 +2,7 @@
 import unittest
 
 import h5py
-from runs import BIN, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
+from runs import BIN, PATIENCE, QUICK, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
 
 FOAM = ("--set", "impactor.type=foam")
 COARSE = (*FOAM, "--set", "impactor.foam.elements=40")
@@ -20,7 +20,8 @@ class Foam(unittest.TestCase):
             self.assertEqual(summary["particles"], 0)
             self.assertEqual(summary["impactor_elements"], 13200)
             for key in ("impulse_number", "areal_mass_ratio", "loading_time_ratio"):
-                self.assertEqual(summary[key], of_slug[key], key)
+                # The block is what the scene asks for; particles come in whole numbers, here 1910 for 1909.86.
+                self.assertAlmostEqual(summary[key] / of_slug[key], 1.0, delta=1e-4, msg=key)
             # Model: another continuum than the particles', 5% of the deflection in the paper.
             self.assertAlmostEqual(summary["peak_deflection"] / of_slug["peak_deflection"], 1.0, delta=0.05)
             with h5py.File(run.out / "results.h5") as file:
@@ -31,7 +32,7 @@ class Foam(unittest.TestCase):
                 self.assertGreater(file["series/impactor/foam_element_quality"][()].min(), 0.15)
             self.assertTrue((run.out / "impactor.pvd").is_file())
             self.assertEqual(len(list((run.out / "paraview").glob("impactor_*.vtu"))), count)
-            plotted = subprocess.run([SOURCE / "tools/plot", run.out], capture_output=True, text=True, timeout=120)
+            plotted = subprocess.run([SOURCE / "tools/plot", run.out], capture_output=True, text=True, timeout=PATIENCE)
             self.assertEqual(plotted.returncode, 0, plotted.stderr)
 
     def test_a_wall_feels_the_shock(self):

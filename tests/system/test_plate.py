@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 import numpy as np
-from runs import BIN, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
+from runs import BIN, PATIENCE, SOURCE, Run, datasets, os, pathlib, subprocess, tempfile
 
 PLATE = SOURCE / "configs/small/plate-quick.yaml"
 ROUND_OFF = 1e-12  # relative, over some thousand steps
@@ -84,7 +84,8 @@ class SlugOfSpheres(unittest.TestCase):
         self.assertTrue(0.02 < bounds[5] < 0.1, bounds)  # x3 reaches to about r sin 20 degrees
 
     def test_pictures_are_drawn(self):
-        plotted = subprocess.run([SOURCE / "tools/plot", self.run_.out], capture_output=True, text=True, timeout=120)
+        plotted = subprocess.run([SOURCE / "tools/plot", self.run_.out], capture_output=True, text=True,
+                                 timeout=PATIENCE)
         self.assertEqual(plotted.returncode, 0, plotted.stderr)
         self.assertTrue((self.run_.out / "pictures/snapshots.png").is_file())
 
@@ -99,14 +100,14 @@ class SlugOfSpheres(unittest.TestCase):
 
     def test_check_says_what_ranks_would_take(self):
         said = subprocess.run([BIN / "grainstep", "check", SOURCE / "configs/liu2013/plate-monolithic.yaml", "--ranks", "64"],
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=PATIENCE)
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertRegex(said.stdout, r"particles +6250000,")
         self.assertRegex(said.stdout, r"memory .* MiB each of 64 ranks\)")
 
     def test_two_ranks_give_the_same_response(self):
         with Run("--ranks", "2", scene=PLATE) as two:
-            self.assertEqual(two.end(patience=200).code, 0, two.stderr)
+            self.assertEqual(two.end().code, 0, two.stderr)
             self.assertLess(two.summary()["momentum_error"], ROUND_OFF)
             # Another order of sums in a chaotic slug: the seeds' range is the scale.
             ratio = two.summary()["peak_deflection"] / self.run_.summary()["peak_deflection"]

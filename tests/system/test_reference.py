@@ -2,7 +2,7 @@
 import unittest
 
 import h5py
-from runs import SOURCE, Run, subprocess
+from runs import PATIENCE, SOURCE, Run, subprocess
 
 SMALL = SOURCE / "configs/small/beam-monolithic.yaml"
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -11,7 +11,7 @@ PNG = b"\x89PNG\r\n\x1a\n"
 class Reference(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.run_ = Run(scene=SMALL).end(patience=270)
+        cls.run_ = Run(scene=SMALL).end()
 
     @classmethod
     def tearDownClass(cls):
@@ -41,7 +41,8 @@ class Reference(unittest.TestCase):
         self.assertLess((at[1.6] - at[1.1]) / 0.5, 0.2)
 
     def test_pictures_are_drawn(self):
-        plotted = subprocess.run([SOURCE / "tools/plot", self.run_.out], capture_output=True, text=True, timeout=120)
+        plotted = subprocess.run([SOURCE / "tools/plot", self.run_.out], capture_output=True, text=True,
+                                 timeout=PATIENCE)
         self.assertEqual(plotted.returncode, 0, plotted.stderr)
         for name in ("history", "profiles", "ledger", "snapshots"):
             picture = (self.run_.out / "pictures" / f"{name}.png").read_bytes()

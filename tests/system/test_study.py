@@ -1,11 +1,12 @@
 """Studies of real runs: what they leave, that finished runs are never repeated, interruption and resumption."""
 import csv
 import json
+import resource
 import shutil
 import signal
 import unittest
 
-from runs import BIN, QUICK, alive, descendants, pathlib, subprocess, tempfile, until
+from runs import BIN, PATIENCE, QUICK, SOURCE, WHOLE_RUN, alive, descendants, pathlib, subprocess, tempfile, until
 
 HEAD = f"""title: Tiny
 scene: {QUICK}
@@ -29,13 +30,14 @@ BAD = """  - { name: bad, set: ["guards.energy_drift=1e-9"] }
 class Study:
     """A study file in a directory of its own."""
 
-    def __init__(self, text):
+    def __init__(self, text, head=HEAD):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="grainstep-study-"))
         self.file, self.out = self.folder / "tiny.yaml", self.folder / "out"
+        self.head = head
         self.write(text)
 
     def write(self, text):
-        self.file.write_text(HEAD + text)
+        self.file.write_text(self.head + text)
 
     def remove(self):
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -43,8 +45,8 @@ class Study:
     def command(self, *options):
         return [str(BIN / "grainstep"), "study", str(self.file), "--out", str(self.out), *options]
 
-    def run(self, *options):
-        return subprocess.run(self.command(*options), capture_output=True, text=True, timeout=200)
+    def run(self, *options, **how):
+        return subprocess.run(self.command(*options), capture_output=True, text=True, timeout=WHOLE_RUN, **how)
 
     def table(self):
         with open(self.out / "table.csv", newline="") as file:
@@ -93,10 +95,31 @@ class StudyComplete(unittest.TestCase):
     def test_a_run_is_the_one_that_grainstep_run_makes(self):
         point = self.study.out / "runs/speeds/speed=300-m-s"
         alone = self.study.folder / "alone"
-        subprocess.run([BIN / "grainstep", "run", point / "scene.yaml", "--out", alone, "--quiet"], check=True, timeout=200)
+        subprocess.run([BIN / "grainstep", "run", point / "scene.yaml", "--out", alone, "--quiet"], check=True,
+                       timeout=WHOLE_RUN)
         one, other = (json.loads((folder / "summary.json").read_text()) for folder in (point, alone))
         for key in ("scene_key", "results_version", "peak_deflection", "transmitted_impulse", "energy_drift"):
             self.assertEqual(one[key], other[key], key)
+
+
+class StudyOfManyRuns(unittest.TestCase):
+    def test_needs_no_more_files_for_more_runs(self):
+        """80 runs where 64 files may be open: what an ended run held is given back."""
+        study = Study("", head=f"""title: Many
+scene: {SOURCE}/configs/loads/rectangular-pulse.yaml
+set: ["time.end=2 us", "output.snapshots=0"]
+series:
+  - name: many
+    axes: [{{ key: impactor.pressure.rectangular.pressure, values: [{", ".join(f"{50 + n} MPa" for n in range(80))}] }}]
+""")
+        self.addCleanup(study.remove)
+
+        def few_files():
+            resource.setrlimit(resource.RLIMIT_NOFILE, (64, resource.getrlimit(resource.RLIMIT_NOFILE)[1]))
+
+        ended = study.run("--jobs", "4", preexec_fn=few_files)
+        self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+        self.assertIn("80 points: 80 done (80 of them now)", ended.stdout)
 
 
 class StudyInterruption(unittest.TestCase):
@@ -125,7 +148,7 @@ class StudyInterruption(unittest.TestCase):
     def test_ctrl_c_ends_in_good_order_and_the_rest_comes_later(self):
         process, family = self.start_and_wait_for_a_run()
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 130, errors)
         until(lambda: not any(map(alive, family)), "the end of all its processes")
         states = [row["status"] for row in self.study.table().values()]
@@ -136,7 +159,7 @@ class StudyInterruption(unittest.TestCase):
     def test_a_killed_study_leaves_nobody_behind_and_resumes(self):
         process, family = self.start_and_wait_for_a_run()
         process.kill()
-        process.wait(30)
+        process.wait(PATIENCE)
         until(lambda: not any(map(alive, family)), "the end of all its processes")
         self.resume(self.finished())
 
@@ -154,11 +177,11 @@ class StudyBadInput(unittest.TestCase):
         study = Study(SPEEDS)
         self.addCleanup(study.remove)
         first = subprocess.Popen(study.command("--quiet"), stderr=subprocess.DEVNULL)
-        self.addCleanup(lambda: (first.send_signal(signal.SIGTERM), first.wait(60)))
+        self.addCleanup(lambda: (first.send_signal(signal.SIGTERM), first.wait(PATIENCE)))
         until(lambda: list(study.out.glob("runs/**/logs")), "the first one's first run")
         second = study.run()
         self.assertEqual(second.returncode, 2)
-        self.assertIn("another grainstep study works in this directory", second.stderr)
+        self.assertIn(f"a study works in this directory (process {first.pid} on ", second.stderr)
 
 
 if __name__ == "__main__":

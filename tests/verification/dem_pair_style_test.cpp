@@ -128,7 +128,7 @@ void expect_same_bits(const Cloud& cloud) {
     for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i], b[i]) << "particle " << i + 1 << " after step " << n;
   }
   EXPECT_NE(ours.motion(), start);
-  const PairEnergy energy = PairStyle::find(ours.lammps()).energy();
+  const PairEnergy energy = lammps::find_pair<PairStyle>(ours.lammps()).energy();
   EXPECT_GT(energy.damping, 0.0);
   EXPECT_EQ(energy.tangential > 0.0, rubs);
 }

@@ -16,7 +16,7 @@ class FoamScenes(unittest.TestCase):
     def compare(self, name, tolerance=0.05, reason="model: foam within 5% of the particles in the paper's text"):
         with Run("--set", "output.snapshots=0", "--set", "impactor.type=foam",
                  scene=SOURCE / f"configs/small/{name}.yaml") as run:
-            self.assertEqual(run.end(patience=270).code, 0, run.stderr)
+            self.assertEqual(run.end().code, 0, run.stderr)
             summary = run.summary()
         case = {"group": "coupled", "name": f"Foam projectile in place of the slug, configs/small/{name}.yaml", "unit": ""}
         check(self, Comparison(**case, quantity="largest deflection w/L", reference="the slug's particles",

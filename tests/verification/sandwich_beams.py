@@ -11,7 +11,7 @@ WHY = "model: packing and damping of the independent code differ; seeds spread b
 class SandwichBeams(unittest.TestCase):
     def compare(self, name, deflection, compression):
         with Run("--set", "output.snapshots=0", scene=SOURCE / f"configs/small/{name}.yaml") as run:
-            self.assertEqual(run.end(patience=270).code, 0, run.stderr)
+            self.assertEqual(run.end().code, 0, run.stderr)
             summary = run.summary()
             with h5py.File(run.out / "results.h5") as file:
                 recorded = file["series/structure/core_compression"][()]

@@ -14,18 +14,17 @@ namespace {
 
 scene::Impactor impactor() { return rig::reference_setup().impactor().impactor(); }
 
-ImpactorPreview preview_of(const scene::Impactor& what) {
-  return preview(what, scene::SYMMETRY_PLANE_STRAIN, 1e-3, true);
-}
+SlugPreview preview_of(const scene::Impactor& what) { return preview(what, scene::SYMMETRY_PLANE_STRAIN, 1e-3, true); }
 
 TEST(Preview, ReferenceSlugOfThePaper) {
   scene::Impactor paper = impactor();
   paper.mutable_slug()->mutable_particle()->set_diameter(200e-6);
   paper.mutable_slug()->set_half_width(0.1);
   paper.mutable_slug()->set_height(0.3);
-  const ImpactorPreview found = preview_of(paper);
+  const SlugPreview found = preview_of(paper);
   EXPECT_EQ(found.particles, 190986U);  // 0.2 a H / (pi D^2/4)
   EXPECT_NEAR(found.particle_mass, 8.482e-8, 5e-12);
+  EXPECT_DOUBLE_EQ(found.mass, 190986.0 * found.particle_mass);
   EXPECT_NEAR(found.contact_time, 2.410e-7, 5e-11);
   EXPECT_NEAR(found.preferred_step, 2.41e-8, 5e-11);
   EXPECT_GT(found.stable_step, found.preferred_step);
@@ -48,8 +47,8 @@ TEST(Preview, ManySizes) {
   sizes.set_by(scene::SizeDistribution::BY_MASS);
   sizes.mutable_bidisperse()->set_ratio(3.0);
   sizes.mutable_bidisperse()->set_large(0.5);
-  const ImpactorPreview equal = preview_of(impactor());
-  const ImpactorPreview found = preview_of(mixed);
+  const SlugPreview equal = preview_of(impactor());
+  const SlugPreview found = preview_of(mixed);
   EXPECT_NEAR(found.smallest, 0.5e-3, 1e-12);
   EXPECT_NEAR(found.largest, 1.5e-3, 1e-12);
   // Half the mass in discs of a quarter of the mean one's, half in discs of 2.25 times that.

@@ -123,6 +123,32 @@ TEST(Kernel, SameInputSameBits) {
   EXPECT_EQ(std::memcmp(first.corners.fy.data(), second.corners.fy.data(), bytes), 0);
 }
 
+// Without dependence on rate the reference rate means nothing: not even another path to the same root.
+TEST(Kernel, WithoutRateFactorTheReferenceRateChangesNoBit) {
+  const auto run = [](double reference_rate) {
+    scene::Structure structure = test::beam(scene::Layer::MATERIAL_DH36, 21e-3, 2e-3, 2);
+    structure.mutable_layers(0)->set_rate_factor(0.0);
+    structure.mutable_layers(0)->set_reference_rate(reference_rate);
+    Body body(make_mesh(structure), make_layers(structure), PlaneStrain{1e-3});
+    for (int n = 0; n < 40; ++n) {
+      prescribe(body, n * 5e-8);
+      body.drift(5e-8);
+      body.sweep(5e-8);
+    }
+    return body;
+  };
+  const Body slow = run(1.0);
+  for (const double rate : {1e-6, 300.0, 2e3, 1e12}) {
+    const Body other = run(rate);
+    for (const auto& array : {&Nodes::fx, &Nodes::fy}) {
+      EXPECT_EQ(std::memcmp((slow.corners.*array).data(), (other.corners.*array).data(),
+                            slow.corners.fx.size() * sizeof(double)),
+                0)
+          << rate;
+    }
+  }
+}
+
 /// Random displacements of every node by up to `part` of an element's side; those on an axis stay on it.
 void distort(Body& body, double part, unsigned seed) {
   std::mt19937 random(seed);

@@ -31,13 +31,13 @@ wire::Start start_of(double window, std::uint32_t steps) {
 }
 
 /// Uneven impulses on every surface node, N s, for a while.
-wire::Forces forces_of(std::uint64_t window, int nodes) {
+wire::Forces forces_of(std::uint64_t window, int nodes, double sign = 1.0) {
   wire::Forces forces;
   forces.set_window(window);
   for (int k = 0; k < nodes; ++k) {
     const bool on = window < 60;
     forces.add_impulse(on ? 1e-6 * std::sin(0.7 * k + 0.1 * static_cast<double>(window)) : 0.0);
-    forces.add_impulse(on ? -4e-6 * (1.0 + std::cos(1.1 * k)) : 0.0);
+    forces.add_impulse(on ? -sign * 4e-6 * (1.0 + std::cos(1.1 * k)) : 0.0);
   }
   return forces;
 }
@@ -57,7 +57,9 @@ struct Record {
   wire::Snapshot snapshot;
 };
 
-Record run(const scene::Structure& scene_part, double window, std::uint32_t steps, std::uint64_t windows) {
+/// `sign`: -1 pulls.
+Record run(const scene::Structure& scene_part, double window, std::uint32_t steps, std::uint64_t windows,
+           double sign = 1.0) {
   Record result;
   Structure structure;
   result.ready = structure.prepare(setup_of(scene_part));
@@ -65,7 +67,7 @@ Record run(const scene::Structure& scene_part, double window, std::uint32_t step
   const int nodes = result.ready.surface().position_size() / 2;
   for (std::uint64_t n = 0; n <= windows; ++n) {
     wire::Kinematics next;
-    structure.advance(forces_of(n, nodes), {.report = true, .snapshot = n == windows}, next);
+    structure.advance(forces_of(n, nodes, sign), {.report = true, .snapshot = n == windows}, next);
     result.kinematics.push_back(next);
     structure.report(result.reports.emplace_back());
     if (n == windows) structure.snapshot(result.snapshot);
@@ -265,6 +267,23 @@ TEST(Structure, RunsAreRepeatedBitForBit) {
   const Record second = run(kSmallBeam, 1e-7, 1, 100);
   for (std::size_t n = 0; n < first.kinematics.size(); ++n) {
     EXPECT_EQ(first.kinematics[n].SerializeAsString(), second.kinematics[n].SerializeAsString());
+  }
+}
+
+// Suction: the peak is the largest in size, with its sign.
+TEST(Structure, PulledItDeflectsTheOtherWay) {
+  scene::Structure free = kSmallBeam;
+  free.set_type(scene::Structure::TYPE_RIGID);
+  free.set_motion(scene::Structure::MOTION_FREE);
+  for (const scene::Structure& structure : {kSmallBeam, free}) {
+    const wire::Report pulled = run(structure, 1e-7, 1, 120, -1.0).reports.back();
+    const wire::Report pressed = run(structure, 1e-7, 1, 120).reports.back();
+    EXPECT_LT(value_of(pulled, "peak_deflection"), 0.0);
+    EXPECT_GT(value_of(pressed, "peak_deflection"), 0.0);
+    EXPECT_NEAR(value_of(pulled, "peak_deflection") / value_of(pressed, "peak_deflection"), -1.0,
+                0.1);  // model: not small
+    EXPECT_LE(value_of(pulled, "peak_deflection"), value_of(pulled, "deflection"));
+    EXPECT_GT(value_of(pulled, "peak_deflection_time"), 0.0);
   }
 }
 

@@ -29,7 +29,7 @@ TEST(SurfaceLoad, UniformPressureIsUniformOnUnequalSegments) {
   for (const double p : load.impulse_per_area(impulse)) {
     EXPECT_NEAR(p, 1.0, 1e-15);
   }
-  EXPECT_NEAR(load.normal_impulse(impulse), 1.5, 1e-15);
+  EXPECT_NEAR(load.impulse_on_face(impulse), 1.5, 1e-15);
 }
 
 // Pressure 1 on rings r = 0..1..3: 2 pi times the integrals of shape function x r, 1/6; 2/6 + 10/6; 14/6.
@@ -38,7 +38,7 @@ TEST(SurfaceLoad, UniformPressureIsUniformOnRings) {
   const double turn = 2.0 * std::numbers::pi;
   const std::array impulse{0.0, -turn / 6.0, 0.0, -turn * 2.0, 0.0, -turn * 14.0 / 6.0};
   for (const double p : load.impulse_per_area(impulse)) EXPECT_NEAR(p, 1.0, 1e-14);
-  EXPECT_NEAR(load.normal_impulse(impulse), std::numbers::pi * 9.0, 1e-13);
+  EXPECT_NEAR(load.impulse_on_face(impulse), std::numbers::pi * 9.0, 1e-13);
 }
 
 TEST(SurfaceLoad, RefusesASurfaceOfRevolutionOnItsAxis) {
@@ -54,7 +54,7 @@ TEST(SurfaceLoad, SegmentsAddUpToTheNodes) {
   const auto per_area = load.impulse_per_area(impulse);
   const auto lengths = load.lengths();
   EXPECT_NEAR(std::inner_product(per_area.begin(), per_area.end(), lengths.begin(), 0.0) * kDepth, 20.5, 1e-13);
-  EXPECT_NEAR(load.normal_impulse(impulse), 20.5, 1e-13);
+  EXPECT_NEAR(load.impulse_on_face(impulse), 20.5, 1e-13);
 }
 
 // A face from 0 to 2 and, around its corner, an end face down to -1: a push down on the corner presses the face alone.
@@ -67,6 +67,26 @@ TEST(SurfaceLoad, APushOnACornerPressesTheFaceThatItPointsTo) {
   const auto per_area = load.impulse_per_area(impulse);
   EXPECT_DOUBLE_EQ(per_area[0], 4.0 / (2.0 * kDepth));
   EXPECT_DOUBLE_EQ(per_area[1], 3.0 / (1.0 * kDepth));
+  EXPECT_DOUBLE_EQ(load.impulse_on_face(impulse), 4.0);
+}
+
+// A wall of one segment: friction at x goes to its corner with x/L, and is no pressure on the face.
+TEST(SurfaceLoad, FrictionIsNoPartOfWhatPressesOnTheLoadedFace) {
+  wire::Surface wall;
+  for (const double x : {-2.0, -1.0, -2.0, 0.0, 2.0, 0.0, 2.0, -1.0}) wall.add_position(x);
+  for (const unsigned node : {0U, 1U, 1U, 2U, 2U, 3U}) wall.add_segment(node);
+  const SurfaceLoad load(wall, kDepth);
+  const std::array impulse{0.0, 0.0, 5.0, -4.0, -3.0, -1.5, 0.0, 0.0};
+  EXPECT_DOUBLE_EQ(load.impulse_on_face(impulse), 5.5);
+}
+
+// Every upward segment takes its nodes' x2 impulses; what hangs over is no part of the face.
+TEST(SurfaceLoad, AnUnevenFaceReceivesWhatItsNodesReceiveAlongX2) {
+  wire::Surface ridge;
+  for (const double x : {0.0, 0.0, 1.0, 0.5, 2.0, 0.0, 1.0, -3.0}) ridge.add_position(x);
+  for (const unsigned node : {0U, 1U, 1U, 2U, 2U, 3U}) ridge.add_segment(node);
+  const SurfaceLoad load(ridge, kDepth);
+  EXPECT_DOUBLE_EQ(load.impulse_on_face(std::array{0.3, -1.0, -0.2, -2.0, 0.0, 0.0, 0.0, 0.0}), 3.0);
 }
 
 TEST(SurfaceLoad, RefusesTopologyThatDoesNotFit) {

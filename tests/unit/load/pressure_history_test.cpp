@@ -48,6 +48,8 @@ TEST(PressureHistory, ARectangleIsPressureTimesTime) {
   EXPECT_EQ(impulse(pulse, -1.0, 1.0), 5.0);
   EXPECT_EQ(moments(pulse).impulse, 10.0);
   EXPECT_EQ(moments(pulse).mean_time, 1.0);
+  EXPECT_EQ(moments(pulse).onset, 0.0);
+  EXPECT_EQ(moments(pulse).end, 2.0);
   EXPECT_EQ(pressure_at(pulse, 1.9), 5.0);
   EXPECT_EQ(pressure_at(pulse, 2.0), 0.0);
 }
@@ -80,6 +82,21 @@ TEST(PressureHistory, ATableIsItsTrapezia) {
   EXPECT_DOUBLE_EQ(moments(points).impulse, 10.0);
   // A triangle's centre of gravity is at 2/3 (1 + 4/3 s), a trapezium's at 3 + (6 + 2 * 2)/(3 * (6 + 2)) s.
   EXPECT_DOUBLE_EQ(moments(points).mean_time, (6.0 * (1.0 + 4.0 / 3.0) + 4.0 * (3.0 + 10.0 / 24.0)) / 10.0);
+}
+
+TEST(PressureHistory, ATableBeginsWhereItIsNotZeroAnyMore) {
+  scene::Pressure pressure;
+  for (const double t : {0.0, 1.0, 2.0, 3.0, 5.0}) pressure.mutable_tabulated()->add_time(t);
+  for (const double p : {0.0, 0.0, -4.0, 0.0, 0.0}) pressure.mutable_tabulated()->add_pressure(p);
+  EXPECT_EQ(moments(pressure).onset, 1.0);
+  EXPECT_EQ(moments(pressure).end, 3.0);
+  pressure.mutable_tabulated()->set_pressure(0, 1.0);
+  EXPECT_EQ(moments(pressure).onset, 0.0);
+}
+
+TEST(PressureHistory, WhatIsAlwaysZeroNeverBegins) {
+  EXPECT_TRUE(std::isnan(moments(rectangular(0.0, 2.0)).onset));
+  EXPECT_TRUE(std::isnan(moments(exponential(0.0, 2.0)).onset));
 }
 
 TEST(PressureHistory, StepsAddUpToTheImpulseWhateverTheirLength) {

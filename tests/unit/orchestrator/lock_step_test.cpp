@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "hand_played.hpp"
+#include "patience.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -38,7 +39,7 @@ class HandPlayed : public ::testing::Test {
     }
     return out;
   }
-  std::string run(double silence_s = 20.0) {
+  std::string run(double silence_s = grainstep::testing::patience_s) {
     try {
       LockStep(hub_, witness_, start_, silence_s).run();
     } catch (const PeerError& error) {

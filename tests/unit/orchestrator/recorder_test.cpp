@@ -3,9 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <functional>
+#include <numbers>
+
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
 #include "orchestrator/summary.hpp"
-#include "temporary_directory.hpp"
+#include "participant/schedule.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -27,6 +32,7 @@ scene::Scene scene_of_one_segment() {
   out.mutable_structure()->set_half_span(1.0);
   out.mutable_structure()->set_extent(scene::Structure::EXTENT_FULL);
   scene::Layer& layer = *out.mutable_structure()->add_layers();
+  layer.set_material(scene::Layer::MATERIAL_DH36);
   layer.set_thickness(0.1);
   layer.set_density(1000.0);
   layer.set_yield_strength(1e9);
@@ -47,7 +53,13 @@ class RecorderTest : public ::testing::Test {
     for (const double x : {-1.0, 0.0, 1.0, 0.0}) surface_.add_position(x);
     surface_.add_segment(0);
     surface_.add_segment(1);
-    directory_.prepare(results::Existing::refuse);
+    start_over();
+  }
+
+  void start_over() {
+    recorder_.reset();
+    file_.reset();
+    static_cast<void>(directory_.prepare(results::Existing::replace));
     file_.emplace(directory_.results(), std::vector<results::Text>{});
     recorder_.emplace(Recorder::Context{.scene = scene_, .groups = groups_, .plan = plan_, .surface = surface_},
                       directory_, *file_, nullptr);
@@ -56,13 +68,13 @@ class RecorderTest : public ::testing::Test {
   void window(std::uint64_t n) {
     wire::Forces forces;
     forces.set_window(n);
-    const double impulse = force * plan_.window * (n == 0 ? 0.5 : 1.0);
+    const double impulse = n > load_until_ ? 0.0 : force * plan_.window * (n == 0 ? 0.5 : 1.0);
     for (int node = 0; node < 2; ++node) {
       forces.add_impulse(0.0);
       forces.add_impulse(0.5 * impulse);
     }
     recorder_->forces(forces);
-    if (n % plan_.report_every == 0) {
+    if (participant::due_at(plan_.start(), n).report) {
       recorder_->report(wire::STRUCTURE, report(n, 0.0, 1.0));
       recorder_->report(wire::IMPACTOR, report(n, -10.0, -1.0));
     }
@@ -70,7 +82,8 @@ class RecorderTest : public ::testing::Test {
 
   // Momentum p0 plus (or minus) all of the impulse, everything else constant.
   [[nodiscard]] wire::Report report(std::uint64_t n, double p0, double sign) const {
-    const double received = sign * force * plan_.window * static_cast<double>(n);
+    const double acting = n > load_until_ ? static_cast<double>(load_until_) + 0.5 : static_cast<double>(n);
+    const double received = sign * force * plan_.window * acting;
     wire::Report out;
     out.set_window(n);
     for (const double value : {0.0, p0 + received}) out.mutable_momentum()->add_linear(value);
@@ -79,7 +92,10 @@ class RecorderTest : public ::testing::Test {
     auto* peak = out.add_observable();
     peak->set_name("peak_deflection");
     peak->set_unit("m");
-    peak->set_value(0.25);
+    peak->set_value(peak_);
+    auto* deflection = out.add_observable();
+    deflection->set_name("deflection");
+    deflection->set_value(deflection_(static_cast<double>(n) * plan_.window));
     if (!cored_) return out;
     for (const auto& [name, value] : {std::pair{"peak_core_compression", 0.3}, {"peak_core_compression_time", 2.0}}) {
       auto* observable = out.add_observable();
@@ -106,11 +122,14 @@ class RecorderTest : public ::testing::Test {
   scene::Groups groups_ = scene::groups(scene_);
   StepPlan plan_;
   wire::Surface surface_;
-  grainstep::testing::TemporaryDirectory scratch_;
+  TemporaryDirectory scratch_;
   results::RunDirectory directory_{scratch_.path() / "run"};
   std::optional<results::ResultsFile> file_;
   std::optional<Recorder> recorder_;
   double broken_energy_ = 50.0;
+  std::uint64_t load_until_ = 1000;                                        // window
+  double peak_ = 0.25;                                                     // m
+  std::function<double(double)> deflection_ = [](double) { return 0.0; };  // m, of time
   bool cored_ = false;
 };
 
@@ -148,6 +167,64 @@ TEST_F(RecorderTest, ACoresCompressionIsInTheSummary) {
   EXPECT_DOUBLE_EQ(s["peak_core_compression"].get<double>(), 0.3);
   EXPECT_DOUBLE_EQ(s["peak_core_compression_time"].get<double>(), 2.0 / groups_.reference_time);
   EXPECT_NE(digest(s).find("core compression     0.300"), std::string::npos);
+}
+
+// Rows at every window, a load for the first 5 of 40, and a beam that is pulled and swings about -0.2 m.
+TEST_F(RecorderTest, ThePermanentDeflectionIsInTheSummary) {
+  plan_.report_every = 1;
+  peak_ = -0.25;
+  start_over();
+  EXPECT_FALSE(recorder_->findings().rest) << "nothing has come yet";
+  deflection_ = [](double t) { return -0.2 + 0.05 * std::cos(2.0 * std::numbers::pi * t / 0.12); };
+  load_until_ = 5;
+  for (std::uint64_t n = 0; n <= plan_.windows; ++n) window(n);
+  const auto s = summary_so_far();
+  EXPECT_DOUBLE_EQ(s["peak_deflection"].get<double>(), -0.25);
+  EXPECT_NEAR(s["final_deflection"].get<double>(), -0.2, 0.05 * 0.02);
+  EXPECT_NEAR(s["final_deflection_spread"].get<double>(), 0.05, 0.05 * 0.05);
+  EXPECT_THAT(digest(s), HasSubstr("peak deflection      -0.2500 w/L"));
+  EXPECT_THAT(digest(s), HasSubstr("final deflection     -0.20"));
+}
+
+TEST_F(RecorderTest, ASmallDeflectionIsNotPrintedAsNone) {
+  peak_ = -8.9e-6;
+  for (std::uint64_t n = 0; n <= 10; ++n) window(n);
+  EXPECT_THAT(digest(summary_so_far()), HasSubstr("peak deflection      -8.9e-06 w/L"));
+  peak_ = 0.0;
+  for (std::uint64_t n = 11; n <= 20; ++n) window(n);
+  EXPECT_THAT(digest(summary_so_far()), HasSubstr("peak deflection      0.0000 w/L"));
+}
+
+TEST_F(RecorderTest, UnderLoadThereIsNoPermanentDeflection) {
+  plan_.report_every = 1;
+  start_over();
+  deflection_ = [](double t) { return 0.2 + 0.05 * std::cos(2.0 * std::numbers::pi * t / 0.12); };
+  for (std::uint64_t n = 0; n <= plan_.windows; ++n) window(n);
+  const auto s = summary_so_far();
+  EXPECT_TRUE(s["final_deflection"].is_null());
+  EXPECT_TRUE(s["final_deflection_spread"].is_null());
+  EXPECT_EQ(digest(s).find("final deflection"), std::string::npos);
+}
+
+TEST_F(RecorderTest, WithoutAYieldStrengthTimesAreSeconds) {
+  scene_.mutable_structure()->mutable_layers(0)->set_material(scene::Layer::MATERIAL_ELASTIC);
+  groups_ = scene::groups(scene_);
+  broken_energy_ = 60.0;
+  std::string text;
+  try {
+    for (std::uint64_t n = 0; n <= plan_.windows; ++n) window(n);
+  } catch (const NumericalError& error) {
+    text = error.what();
+  }
+  EXPECT_THAT(text, HasSubstr("at window 30 of 40 (t 300.0000 ms)"));
+  const auto s = summary_so_far();
+  for (const char* key : {"impulse_number", "loading_time_ratio", "peak_deflection_time", "final_time"}) {
+    EXPECT_TRUE(s[key].is_null()) << key;
+  }
+  EXPECT_DOUBLE_EQ(s["final_seconds"].get<double>(), 0.3);
+  EXPECT_THAT(digest(s), HasSubstr("(run to 300 ms)"));
+  recorder_->finish();
+  EXPECT_FALSE(results::h5::File::read(directory_.results()).has("/series/t_bar"));
 }
 
 TEST_F(RecorderTest, AShortRunHasNoEarlyPressure) {

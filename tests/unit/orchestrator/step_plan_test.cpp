@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "participant/schedule.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr SideSteps impactor{.stable = 4e-8, .preferred = 2.4e-8};
+constexpr SideSteps impactor{.stable = 4e-8, .preferred = 2.4e-8, .contact_time = 2.4e-7};
 
 scene::Scene automatic() {
   scene::Scene out;
@@ -170,12 +171,15 @@ TEST(StepPlan, RefusesWhatNoIntegerCounts) {
 
 TEST(StepPlan, HeavyParticlesOnLightNodesGetEqualSteps) {
   const auto plan_of = [](scene::Scene scene, double structure_step) {
-    return plan_steps(scene, 3e-3, {4e-8, 2.4e-8, 2e-3}, {structure_step, structure_step, 1e-3});
+    SideSteps heavy = impactor;
+    heavy.contact_mass = 2e-3;
+    return plan_steps(scene, 3e-3, heavy,
+                      {.stable = structure_step, .preferred = structure_step, .contact_mass = 1e-3});
   };
   for (const double structure_step : {1e-9, 0.7e-8, 2.4e-8, 1e-7}) {
     const StepPlan plan = plan_of(automatic(), structure_step);
     EXPECT_TRUE(plan.equal_steps());
-    EXPECT_DOUBLE_EQ(plan.impactor_step, std::min(2.4e-8, structure_step));
+    EXPECT_DOUBLE_EQ(plan.impactor_step, std::min(2.4e-8, 0.5 * structure_step)) << "a dent shortens it";
   }
   auto scene = automatic();
   scene.mutable_steps()->mutable_impactor()->set_ratio(20.0);  // what the scene fixes is kept
@@ -195,33 +199,106 @@ TEST(StepPlan, RefusesAWindowThatIsLongerThanAContact) {
 
 TEST(StepPlan, AFoamHasTwoStepsInAWindowAtMost) {
   auto scene = automatic();
-  scene.mutable_impactor()->set_type(scene::Impactor::TYPE_FOAM);
-  const StepPlan plan = plan_steps(scene, 3e-3, impactor, {1e-6, 1e-6});
+  SideSteps foam = impactor;
+  foam.longest_window = 2.0 * foam.preferred;
+  const StepPlan plan = plan_steps(scene, 3e-3, foam, {1e-6, 1e-6});
   EXPECT_EQ(plan.impactor_steps, 2U);
   EXPECT_EQ(plan.structure_steps, 1U);
   scene.mutable_steps()->mutable_structure()->set_ratio(8);  // what the scene fixes is kept
-  EXPECT_EQ(plan_steps(scene, 3e-3, impactor, {1e-6, 1e-6}).impactor_steps, 8U);
+  EXPECT_EQ(plan_steps(scene, 3e-3, foam, {1e-6, 1e-6}).impactor_steps, 8U);
 }
 
 TEST(StepPlan, RefusesAWindowThatIsLongerThanTheRun) {
   constexpr SideSteps unlimited{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   auto scene = automatic();
-  scene.mutable_steps()->mutable_structure()->set_ratio(200000);  // of 2.4e-8 s: longer than 3e-3 s
-  EXPECT_THAT(refusal(scene, unlimited), ::testing::AllOf(HasSubstr("steps.structure"), HasSubstr("0.0048")));
+  scene.mutable_steps()->mutable_structure()->set_ratio(4000);
+  SideSteps patient = impactor;
+  patient.contact_time = 1.0;
+  try {
+    static_cast<void>(plan_steps(scene, 9e-5, patient, unlimited));
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::AllOf(HasSubstr("steps.structure"), HasSubstr("9.6e-05"), HasSubstr("whole run of 9e-05")));
+  }
 }
 
-TEST(StepPlan, ExtraOutputComesAboutAsOftenAsAskedFor) {
-  const StepPlan plan = with_structure(1.3e-7);  // 25000 windows
+TEST(StepPlan, TheContactTimeIsNotTenPreferredSteps) {
+  scene::Scene scene = automatic();
+  scene.mutable_steps()->mutable_impactor()->set_ratio(20.0);
+  SideSteps damped = impactor;  // e of 0.01: the stable step is far below t_e/10
+  damped.contact_time = 8e-7;
+  EXPECT_DOUBLE_EQ(plan_steps(scene, 3e-3, damped, {1e-7, 1e-7}).impactor_step, 4e-8);
+}
+
+TEST(StepPlan, OutputIsSpreadOverAllWindows) {
+  const StepPlan plan = with_structure(1.3e-7);
   EXPECT_EQ(plan.windows, 25000U);
-  EXPECT_EQ(plan.report_every, 50U);
-  EXPECT_EQ(plan.snapshot_every, 510U);  // the first of 50 at the start
-  EXPECT_EQ(plan.profile_every, 833U);
+  EXPECT_DOUBLE_EQ(plan.report_every, 25000.0 / 499.0);  // the first of 500 at the start, the last at the end
+  EXPECT_DOUBLE_EQ(plan.snapshot_every, 25000.0 / 49.0);
+  EXPECT_DOUBLE_EQ(plan.profile_every, 25000.0 / 30.0);  // means over intervals
+  EXPECT_TRUE(plan.warnings.empty());
   auto scene = automatic();
   scene.mutable_output()->set_snapshots(0);
-  scene.mutable_output()->set_rows(100000);
-  const StepPlan dense = plan_steps(scene, 3e-3, impactor, {1.3e-7, 1.3e-7});
-  EXPECT_EQ(dense.snapshot_every, 0U);
-  EXPECT_EQ(dense.report_every, 1U);
+  scene.mutable_output()->set_profiles(0);
+  const StepPlan none = plan_steps(scene, 3e-3, impactor, {1.3e-7, 1.3e-7});
+  EXPECT_EQ(none.snapshot_every, 0.0);
+  EXPECT_EQ(none.profile_every, 0.0);
+}
+
+/// As the participants and the recorder count.
+struct Counts {
+  unsigned rows = 0, snapshots = 0, profiles = 0;
+  bool last_row = false, last_snapshot = false, last_profile = false;
+};
+
+Counts counts_of(const StepPlan& plan) {
+  Counts out;
+  for (std::uint64_t n = 0; n <= plan.windows; ++n) {
+    const participant::Due due = participant::due_at(plan.start(), n);
+    const bool profile = n != 0 && participant::falls_due(plan.profile_every, n, plan.windows);
+    out.rows += due.report ? 1U : 0U;
+    out.snapshots += due.snapshot ? 1U : 0U;
+    out.profiles += profile ? 1U : 0U;
+    out.last_row = due.report;
+    out.last_snapshot = due.snapshot;
+    out.last_profile = profile;
+  }
+  return out;
+}
+
+TEST(StepPlan, CountsAreWhatWasAskedForAndTheLastStateIsThere) {
+  for (const std::uint32_t asked : {1U, 2U, 4U, 7U, 50U, 200U, 333U, 400U, 997U, 1250U}) {
+    auto scene = automatic();
+    scene.mutable_output()->set_snapshots(asked);
+    scene.mutable_output()->set_rows(std::max(2U, asked));
+    scene.mutable_output()->set_profiles(asked);
+    for (const double structure : {1e-7, 1e-3}) {  // 1250 windows, and a long one that is shortened
+      const StepPlan plan = plan_steps(scene, 3e-5, impactor, {structure, structure});
+      const Counts found = counts_of(plan);
+      EXPECT_TRUE(plan.warnings.empty()) << asked << ": " << plan.warnings.front();
+      EXPECT_EQ(found.snapshots, asked);
+      EXPECT_EQ(found.rows, std::max(2U, asked));
+      EXPECT_EQ(found.profiles, asked);
+      EXPECT_TRUE(found.last_row && found.last_snapshot && found.last_profile) << asked;
+    }
+  }
+}
+
+TEST(StepPlan, MoreThanThereAreWindowsIsAWarning) {
+  auto scene = automatic();
+  scene.mutable_output()->set_snapshots(8);
+  scene.mutable_output()->set_profiles(30);
+  scene.mutable_steps()->mutable_structure()->set_ratio(1);
+  const StepPlan plan = plan_steps(scene, 10 * 2.4e-8, impactor, {1e-7, 1e-7});
+  ASSERT_EQ(plan.windows, 10U);
+  EXPECT_EQ(counts_of(plan).rows, 11U);
+  EXPECT_EQ(counts_of(plan).snapshots, 8U);
+  EXPECT_EQ(counts_of(plan).profiles, 10U);
+  EXPECT_THAT(plan.warnings,
+              ::testing::ElementsAre(HasSubstr("output.rows: 500 were asked for, but the run has only 10 "
+                                               "windows"),
+                                     HasSubstr("output.profiles: 30 were asked for")));
 }
 
 }  // namespace

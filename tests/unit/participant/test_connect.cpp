@@ -6,7 +6,8 @@
 #include <future>
 
 #include "base/error.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
+#include "patience.hpp"
 #include "transport/zmq_channel.hpp"
 
 namespace grainstep::participant {
@@ -14,7 +15,7 @@ namespace {
 
 class Connect : public ::testing::Test {
  protected:
-  grainstep::testing::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::string endpoint_ = "ipc://" + (directory_.path() / "structure").string();
 };
 
@@ -45,7 +46,7 @@ TEST_F(Connect, keys_that_are_not_there_are_bad_input) {
 }
 
 TEST_F(Connect, reaches_the_orchestrator) {
-  const auto deadline = transport::in(std::chrono::seconds(30));
+  const auto deadline = testing::soon();
   auto orchestrator = transport::ZmqChannel::bind(endpoint_);
   auto participant = std::async(std::launch::async, [&] {
     const auto channel = open({.endpoint = endpoint_, .curve_dir = {}});

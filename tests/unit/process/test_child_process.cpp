@@ -12,12 +12,13 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
+#include "patience.hpp"
 
 namespace grainstep::process {
 namespace {
 
-constexpr std::chrono::milliseconds long_enough(30'000);
+constexpr std::chrono::milliseconds long_enough = testing::patience;
 
 class ChildProcessTest : public ::testing::Test {
  protected:
@@ -42,12 +43,12 @@ class ChildProcessTest : public ::testing::Test {
       return errno == ESRCH;
     }
     pollfd item{descriptor, POLLIN, 0};
-    const int ready = ::poll(&item, 1, 30'000);
+    const int ready = ::poll(&item, 1, testing::patience_ms);
     ::close(descriptor);
     return ready == 1;
   }
 
-  testing::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   std::filesystem::path log_ = directory_.path() / "log";
 };
 
@@ -80,7 +81,7 @@ TEST_F(ChildProcessTest, adds_to_the_environment) {
 TEST_F(ChildProcessTest, its_descriptor_tells_of_a_violent_end) {
   ChildProcess child("structure", shell("kill -KILL $$"), log_);
   pollfd item{child.descriptor(), POLLIN, 0};
-  ASSERT_EQ(::poll(&item, 1, 30'000), 1);
+  ASSERT_EQ(::poll(&item, 1, testing::patience_ms), 1);
   EXPECT_TRUE(child.ended());
   EXPECT_EQ(child.exit_code(), std::nullopt);
   EXPECT_EQ(child.describe_end(), "killed by signal 9 (SIGKILL)");

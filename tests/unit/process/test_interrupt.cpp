@@ -4,6 +4,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "patience.hpp"
+
 namespace grainstep::process {
 namespace {
 
@@ -13,7 +15,7 @@ TEST(Interrupt, the_first_signal_is_readable) {
     EXPECT_FALSE(interrupt.raised());
     ::kill(::getpid(), number);
     pollfd item{interrupt.descriptor(), POLLIN, 0};
-    ASSERT_EQ(::poll(&item, 1, 30'000), 1) << number;
+    ASSERT_EQ(::poll(&item, 1, grainstep::testing::patience_ms), 1) << number;
     EXPECT_TRUE(interrupt.raised());
     EXPECT_TRUE(interrupt.raised());
   }

@@ -11,7 +11,8 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
+#include "patience.hpp"
 
 namespace grainstep::process {
 namespace {
@@ -46,7 +47,7 @@ TEST(MpiCommand, more_ranks_than_cores_are_allowed) {
 }
 
 TEST(MpiCommand, no_rank_outlives_a_killed_mpirun) {
-  testing::TemporaryDirectory directory;
+  TemporaryDirectory directory;
   const auto pipe = directory.path() / "ranks";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::string script = "echo $$ > " + pipe.string() + "; exec sleep 600";
@@ -62,10 +63,10 @@ TEST(MpiCommand, no_rank_outlives_a_killed_mpirun) {
   ::kill(mpirun.id(), SIGKILL);
   for (const int rank : ranks) {
     pollfd item{rank, POLLIN, 0};
-    EXPECT_EQ(::poll(&item, 1, 30'000), 1);
+    EXPECT_EQ(::poll(&item, 1, testing::patience_ms), 1);
     ::close(rank);
   }
-  ASSERT_TRUE(mpirun.wait(std::chrono::seconds(30)));
+  ASSERT_TRUE(mpirun.wait(testing::patience));
   EXPECT_EQ(mpirun.describe_end(), "killed by signal 9 (SIGKILL)");
 }
 

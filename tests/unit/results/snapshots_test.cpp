@@ -25,7 +25,7 @@ wire::Snapshot triangle() {
 
 class SnapshotsTest : public ::testing::Test {
  protected:
-  SnapshotsTest() { directory_.prepare(Existing::refuse); }
+  SnapshotsTest() { static_cast<void>(directory_.prepare(Existing::refuse)); }
   Scratch scratch_;
   RunDirectory directory_{scratch_.path() / "run"};
 };

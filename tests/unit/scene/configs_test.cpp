@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "scene/groups.hpp"
+#include "scene/usual.hpp"
 #include "scene_files.hpp"
 
 namespace grainstep::scene {
@@ -54,6 +55,16 @@ TEST(Configs, ValidScenesLoadAndNameTheirOrigin) {
     }
     const fs::path schema = path.parent_path() / header_line(path, "# yaml-language-server: $schema=");
     EXPECT_TRUE(fs::exists(schema)) << schema;
+  }
+}
+
+// configs/hard is what lies beyond.
+TEST(Configs, ValidScenesHoldUsualValues) {
+  for (const auto& path : scenes(false)) {
+    if (path.parent_path().filename() == "hard") continue;
+    std::vector<Finding> findings;
+    check_usual(load_scene(path), findings);
+    for (const Finding& finding : findings) ADD_FAILURE() << path << ": " << finding.path << ": " << finding.text;
   }
 }
 

@@ -66,6 +66,13 @@ TEST(LoadErrors, UnknownWord) {
   EXPECT_THAT(load_error(minimal_scene, {"structure.type=unset"}), HasSubstr("is not one of beam, rigid, external"));
 }
 
+TEST(LoadErrors, ABareEndNeedsALayerThatYields) {
+  EXPECT_THAT(
+      load_error(minimal_scene, {"structure.layers.0.material=elastic", "steps.structure=10 ns"}),
+      HasSubstr("x.yaml:1: time.end: found 1.5, and a bare number counts L sqrt(rho_m/sigma_Y), but no layer of "
+                "this structure yields: there is no sigma_Y. Write seconds, with their unit"));
+}
+
 TEST(LoadErrors, AScalarThatFitsNoAlternative) {
   EXPECT_EQ(
       load_error(minimal_scene, {"steps.impactor=autp"}),
@@ -102,11 +109,12 @@ TEST(LoadErrors, NotYaml) {
   EXPECT_THAT(load_error("time: { end: 1.5\nimpactor: [\n"), HasSubstr("not YAML: "));
   EXPECT_EQ(load_error("- a\n- b\n"), "x.yaml: expected a map of keys at the top level, found a list");
   EXPECT_EQ(load_error("just words"), "x.yaml: expected a map of keys at the top level, found 'just words'");
-  EXPECT_EQ(load_error("a: 1\n---\nb: 2\n"), "x.yaml: more than one YAML document (---); expected one");
+  EXPECT_EQ(load_error("a: 1\n---\nb: 2\n"), "x.yaml:2: more than one YAML document (---); expected one");
   EXPECT_EQ(load_error(std::string("time: 1\n\0", 9)),
             "x.yaml:2: a control character (byte 0); expected YAML text in UTF-8");
   EXPECT_THAT(load_error("? [a, b]\n: c\n"), HasSubstr("a key must be a name"));
-  EXPECT_EQ(load_error("title: \"\xff\xfe\"\n" + minimal_scene), "x.yaml:1: title: a text that is not UTF-8");
+  EXPECT_EQ(load_error("title: \"\xff\xfe\"\n" + minimal_scene),
+            "x.yaml:1: not UTF-8 (invalid leading UTF-8 octet); expected YAML text in UTF-8");
 }
 
 TEST(LoadErrors, TooMuch) {

@@ -24,7 +24,7 @@ TEST(Include, ListsAreReplaced) {
   const SceneFiles files;
   files.write("base.yaml", minimal_scene);
   const Scene scene = load_scene(files.write("x.yaml", R"(include: base.yaml
-structure: { layers: [{ material: elastic, thickness: 1 mm }, { material: elastic, thickness: 2 mm }] }
+structure: { layers: [{ material: dh36, thickness: 1 mm }, { material: elastic, thickness: 2 mm }] }
 )"));
   ASSERT_EQ(scene.structure().layers_size(), 2);
   EXPECT_DOUBLE_EQ(scene.structure().layers(1).thickness(), 2e-3);

@@ -81,6 +81,7 @@ TEST(ToYaml, ReadsBackAsTheSameScene) {
       {"impactor.slug.surface_contact={restitution: 0.3333333333333333, friction: 0, lever_arm: radius}"},
       {"structure.layers.1={material: elastic, thickness: 3.3 mm}",
        "title=\"\\u00b5: a \\\"quoted\\\", #line\\n\\x7f\""},
+      {"title=\"\\x7f\\x80\\x85\\x9f\\xa0 \\u2028\\u2029\\ufeff\\ufffe\\uffff\\ud7ff\\U0001f600\\0\\e\""},
       {"impactor.slug.seed=18446744073709551615", "guards.momentum_error=1e-300", "structure.extent=full"}};
   for (const auto& overrides : variants) {
     const Scene scene = load_text(minimal_scene, overrides);

@@ -44,6 +44,27 @@ TEST(Rules, WarningsDoNotStopARun) {
   EXPECT_EQ(findings[1].path, "impactor.slug.speed");
 }
 
+// The share by hand: the part of the slug's width that lies beyond the end of the span.
+TEST(Rules, ASlugPartlyBesideTheStructureIsTold) {
+  const auto told = [&](std::vector<std::string> overrides) {
+    overrides.emplace_back("structure.extent=full");
+    const auto findings = check_rules(load_text(minimal_scene, overrides));
+    EXPECT_LE(findings.size(), 1);
+    return findings.empty() ? std::string() : findings[0].path + ": " + findings[0].text;
+  };
+  EXPECT_EQ(told({"impactor.slug.offset=0.5 m"}),
+            "impactor.slug.offset: about 50% of the slug (half width 0.1 m) flies past the structure "
+            "(structure.half_span is 0.5 m) and loads nothing");
+  EXPECT_THAT(told({"impactor.slug.offset=-0.45 m"}), testing::HasSubstr("about 25% of the slug"));
+  EXPECT_EQ(told({"impactor.slug.offset=0.4 m"}), "");
+  EXPECT_THAT(told({"impactor.slug.half_width=1 m"}), testing::StartsWith("impactor.slug.half_width: about 50% of"));
+  EXPECT_EQ(told({"impactor.slug.angle=45 deg"}), "");
+  // 0.8 m further on, and 0.1 m because the lower edge touches first: from 0.76 m to 1.04 m on a span that ends at 0.5
+  // m.
+  EXPECT_THAT(told({"impactor.slug.angle=45 deg", "impactor.slug.stand_off=0.8 m"}),
+              testing::StartsWith("impactor.slug.angle: about 100% of"));
+}
+
 TEST(Rules, AContactTooSoftIsToldBeforeTheRun) {
   const auto findings = check_rules(load_text(minimal_scene, {"impactor.slug.particle.normal_stiffness=73 kN/m"}));
   ASSERT_EQ(findings.size(), 1);

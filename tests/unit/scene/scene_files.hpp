@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
 #include "scene/load.hpp"
 
 namespace grainstep::scene {
@@ -35,29 +36,17 @@ structure:
 /// A directory of this test's own, removed with it.
 class SceneFiles {
  public:
-  SceneFiles() {
-    std::string name = (std::filesystem::temp_directory_path() / "grainstep-scene-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    folder_ = name;
-  }
-  SceneFiles(const SceneFiles&) = delete;
-  SceneFiles& operator=(const SceneFiles&) = delete;
-  ~SceneFiles() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    auto path = folder_ / name;
+    auto path = folder() / name;
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
 
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return directory_.path(); }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryDirectory directory_;
 };
 
 /// The message of the InputError that loading gives, without the directory's name; "accepted" if there is none.

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/usual.hpp"
 #include "study_files.hpp"
 
 namespace grainstep::study {
@@ -147,7 +148,11 @@ TEST(Plan, ThoseOfTheRepositoryLoad) {
   int found = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(GRAINSTEP_SOURCE_DIR) / "configs" / "studies")) {
     if (entry.path().extension() != ".yaml") continue;
-    EXPECT_NO_THROW(static_cast<void>(load_plan(entry.path()))) << entry.path();
+    for (const PlannedPoint& point : load_plan(entry.path()).points) {
+      std::vector<scene::Finding> findings;
+      scene::check_usual(point.preparation.scene, findings);
+      for (const auto& finding : findings) ADD_FAILURE() << entry.path() << ", " << point.id << ": " << finding.text;
+    }
     ++found;
   }
   EXPECT_GE(found, 1);

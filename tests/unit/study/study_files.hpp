@@ -9,10 +9,10 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/temporary_directory.hpp"
 #include "orchestrator/summary.hpp"
 #include "study/outcome.hpp"
 #include "study/plan.hpp"
-#include "temporary_directory.hpp"
 
 namespace grainstep::study {
 
@@ -72,7 +72,7 @@ class StudyFiles {
   [[nodiscard]] std::filesystem::path folder() const { return directory_.path(); }
 
  private:
-  grainstep::testing::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
 };
 
 }  // namespace grainstep::study

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
 
 namespace grainstep::transport {
 namespace {
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 class Curve : public ::testing::Test {
  protected:
-  testing::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
   fs::path keys_ = directory_.path() / "keys";
 };
 
@@ -54,17 +54,6 @@ TEST_F(Curve, missing_and_broken_keys_are_named) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("orchestrator.pub: is not a CURVE key"), std::string::npos);
   }
-}
-
-TEST(LeavesThisHost, only_tcp_beyond_loopback) {
-  EXPECT_FALSE(leaves_this_host("ipc:///run/channel"));
-  EXPECT_FALSE(leaves_this_host("tcp://127.0.0.1:5555"));
-  EXPECT_FALSE(leaves_this_host("tcp://localhost:*"));
-  EXPECT_FALSE(leaves_this_host("tcp://[::1]:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://*:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://0.0.0.0:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://node17:5555"));
-  EXPECT_TRUE(leaves_this_host("tcp://127.example.org:5555"));
 }
 
 }  // namespace

@@ -6,12 +6,13 @@
 #include <future>
 
 #include "base/error.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
+#include "patience.hpp"
 
 namespace grainstep::transport {
 namespace {
 
-Deadline soon() { return in(std::chrono::seconds(30)); }
+using grainstep::testing::soon;
 
 class ZmqChannelTest : public ::testing::Test {
  protected:
@@ -46,8 +47,8 @@ class ZmqChannelTest : public ::testing::Test {
 
   /// Whether a refusal says this. A busy machine may need longer than the first patience for a handshake.
   static bool says(const char* reason, ZmqChannel& bound, const ZmqOptions& options) {
-    for (auto patience = std::chrono::milliseconds(600); patience < std::chrono::seconds(30); patience *= 2) {
-      if (refusal(bound, options, patience).find(reason) != std::string::npos) return true;
+    for (auto longest = std::chrono::milliseconds(600); longest < grainstep::testing::patience; longest *= 2) {
+      if (refusal(bound, options, longest).find(reason) != std::string::npos) return true;
     }
     return false;
   }
@@ -59,7 +60,7 @@ class ZmqChannelTest : public ::testing::Test {
     return connecting.get();
   }
 
-  testing::TemporaryDirectory directory_;
+  TemporaryDirectory directory_;
 };
 
 TEST_F(ZmqChannelTest, nobody_there_is_said_at_the_deadline) {
@@ -110,6 +111,16 @@ TEST_F(ZmqChannelTest, tcp_beyond_this_host_wants_keys_or_permission) {
   EXPECT_THROW((void)ZmqChannel::connect("tcp://node17:5555", soon()), InputError);
   EXPECT_NE(ZmqChannel::bind("tcp://*:*", {.allow_plain_tcp = true}), nullptr);
   EXPECT_NE(ZmqChannel::bind("tcp://*:*", with_keys("keys")), nullptr);
+}
+
+// libzmq would take these, and neither keys nor permission would have a say.
+TEST_F(ZmqChannelTest, other_schemes_are_refused_with_and_without_keys) {
+  for (const auto* const endpoint : {"ws://127.0.0.1:*", "ws://0.0.0.0:*", "ipc://@grainstep-test", "inproc://name"}) {
+    EXPECT_THROW((void)ZmqChannel::bind(endpoint), InputError) << endpoint;
+    EXPECT_THROW((void)ZmqChannel::bind(endpoint, with_keys("keys")), InputError) << endpoint;
+    EXPECT_THROW((void)ZmqChannel::bind(endpoint, {.allow_plain_tcp = true}), InputError) << endpoint;
+    EXPECT_THROW((void)ZmqChannel::connect(endpoint, soon()), InputError) << endpoint;
+  }
 }
 
 TEST_F(ZmqChannelTest, an_endpoint_that_cannot_be_had_is_bad_input) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "patience.hpp"
 #include "transport/faulty_channel.hpp"
 #include "transport/in_process_channel.hpp"
 
@@ -32,7 +33,7 @@ TEST(MessageChannel, carries_messages) {
   forces.set_window(4);
   forces.add_impulse(2.5);
   ends.left.send(forces);
-  const Frame* frame = ends.right.receive(transport::in(std::chrono::seconds(10)));
+  const Frame* frame = ends.right.receive(grainstep::testing::soon());
   ASSERT_NE(frame, nullptr);
   Forces received;
   ends.right.take(*frame, received, 4);
@@ -48,7 +49,7 @@ TEST(MessageChannel, an_order_that_is_broken_is_told_in_full) {
   Error error;
   error.set_text("element 7 inverted");
   ends.left.send(error);
-  const auto soon = transport::in(std::chrono::seconds(10));
+  const auto soon = grainstep::testing::soon();
   Kinematics into;
   Ready ready;
   const Frame* frame = ends.right.receive(soon);

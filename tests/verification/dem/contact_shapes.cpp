@@ -113,6 +113,17 @@ TEST(ContactShapes, ConcaveFold) {
   }
 }
 
+// Over the chord there is no valley: both legs press, each with its part in the particle.
+TEST(ContactShapes, FoldOverTheChord) {
+  check_quality("a fold of 45 degrees, over the chord", over_chord(across(45, 20)), {2.0, 0.2, 2e-2},
+                &Quality::direction, "vector");
+}
+
+TEST(ContactShapes, CornerOverTheChord) {
+  check_quality("a convex corner of 90 degrees, over the chord", over_chord(across(-90, 20)), {2.0, 0.2, 2e-2},
+                &Quality::direction, "vector");
+}
+
 TEST(ContactShapes, TurningAndStretchingSegment) {
   check_quality("a segment that turns and stretches", on_turning_segment(), {2.0, 0.1, 2e-2}, &Quality::direction,
                 "vector");

@@ -27,7 +27,14 @@ struct Experiment {
   double steps_per_contact = 10.0;
   double contact_times = 4.0;  ///< how long
   Path path = at_rest();
+  scene::SurfaceContact::Spreading spreading = scene::SurfaceContact::SPREADING_POINT;
 };
+
+/// The same with contact over the chord.
+inline Experiment over_chord(Experiment experiment) {
+  experiment.spreading = scene::SurfaceContact::SPREADING_CHORD;
+  return experiment;
+}
 
 /// What one copy saw. Particles are free at the start and at the end.
 struct Outcome {
@@ -102,6 +109,7 @@ inline void receive(const Experiment& experiment, const wire::Forces& forces, st
 
 inline Result carry_out(const Experiment& experiment) {
   wire::Setup setup = impacts::setup_of(experiment.law);
+  rig::slug_of(setup).mutable_surface_contact()->set_spreading(experiment.spreading);
   detail::place(experiment, setup);
   const SlugModel model = rig::model_of(setup);
   Result result{model.contact_time / experiment.steps_per_contact, model.mass, {}};

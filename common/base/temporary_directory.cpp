@@ -1,4 +1,4 @@
-#include "orchestrator/temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
 
 #include <cerrno>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 
-namespace grainstep::orchestrator {
+namespace grainstep {
 namespace {
 
 constexpr std::size_t longest_parent = 60;  // a socket's path holds 107 characters
@@ -23,7 +23,7 @@ TemporaryDirectory::TemporaryDirectory() {
   }
   std::string pattern = (parent / "grainstep-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr) {  // mode 0700
-    throw InputError(parent.string() + ": no directory for sockets can be made: " + std::strerror(errno) +
+    throw InputError(parent.string() + ": no temporary directory can be made: " + std::strerror(errno) +
                      ". Set TMPDIR to a directory that can be written.");
   }
   path_ = pattern;
@@ -39,4 +39,4 @@ void TemporaryDirectory::remove() noexcept {
   }
 }
 
-}  // namespace grainstep::orchestrator
+}  // namespace grainstep

@@ -1,11 +1,9 @@
 /// @file From the elastic predictor of a batch to its stress, foam.
 #pragma once
 
-#include "fe-service/kernel/correct_core.hpp"
 #include "fe-service/materials/foam.hpp"
 
 namespace grainstep::fe {
-namespace {
 
 /// Local problems of a batch. A lane at rest gets numbers that are safe to compute with, and none of them is kept.
 struct FoamReturn {
@@ -19,7 +17,7 @@ struct FoamReturn {
 
 GS_ALWAYS_INLINE double look_lane(const Foam& law, const double* state, int i, FoamReturn& local) {
   const FoamStress trial = foam_stress(stress_of(state, i));
-  const double strain = state[kPlasticStrain * kBatchTriangles + i];
+  const double strain = state[kFoamStrain * kBatchTriangles + i];
   const double over = foam_overshoot(law, trial, strain);
   local.overshoot[i] = over;
   local.deviatoric[i] = over > 0.0 ? trial.deviatoric : law.strength * law.strength;  // at rest: at the strength
@@ -67,20 +65,20 @@ GS_ALWAYS_INLINE bool solve_foam(const Foam& law, double drag, FoamReturn& local
 }
 
 /// Returns the work of the plastic strains, J.
-GS_ALWAYS_INLINE double foam_lane(const Foam& law, const FoamReturn& local, const CoreFlow& flow, double* state,
+GS_ALWAYS_INLINE double foam_lane(const Foam& law, const FoamReturn& local, const FullMemory& flow, double* state,
                                   int i) {
   const bool flows = local.overshoot[i] > 0.0;
   const double x = flows ? local.x[i] : 0.0;
   const Stress now = relaxed(law, stress_of(state, i), x);  // exactly the predictor without flow
   const Stress before = {flow.old_xx[i], flow.old_yy[i], flow.old_xy[i], flow.old_zz[i]};
   set_stress(state, i, now);
-  const double strain = state[kPlasticStrain * kBatchTriangles + i];
+  const double strain = state[kFoamStrain * kBatchTriangles + i];
   const double square = contract(now, now);
   const double increment = x * std::sqrt(square);
   const double reached = strain + increment;
   // The last step of the plateau ends on it, whatever the round-off.
   const double locks = increment > (1.0 - 1e-9) * local.room[i] ? law.locked : reached;
-  state[kPlasticStrain * kBatchTriangles + i] = flows ? locks : strain;
+  state[kFoamStrain * kBatchTriangles + i] = flows ? locks : strain;
   return flow.volume[i] * (0.5 * x * (contract(before, now) + square));
 }
 
@@ -88,13 +86,14 @@ GS_ALWAYS_INLINE double foam_lane(const Foam& law, const FoamReturn& local, cons
 /// which is what the stored energy per volume grows by, times that volume. Together with the plastic work it is the
 /// trapezoidal internal work. Stored energy by the present volume would miss what is in the volume that goes, the third
 /// order of the strain.
-GS_ALWAYS_INLINE double stored_lane(const Foam& law, const double* state, const CoreFlow& flow, int i) {
+GS_ALWAYS_INLINE double stored_lane(const Foam& law, const double* state, const FullMemory& flow, int i) {
   const Stress before = {flow.old_xx[i], flow.old_yy[i], flow.old_xy[i], flow.old_zz[i]};
   return flow.volume[i] * (law.elastic.stored_energy(stress_of(state, i)) - law.elastic.stored_energy(before));
 }
 
 /// Adds what the first `lanes` quads store in this step.
-GS_ALWAYS_INLINE void add_stored(const Foam& law, const double* state, const CoreFlow& flow, int lanes, RowSweep& row) {
+GS_ALWAYS_INLINE void add_stored(const Foam& law, const double* state, const FullMemory& flow, int lanes,
+                                 RowOutcome& row) {
   alignas(kAlignment) double change[kBatchTriangles];
 #pragma omp simd
   for (int i = 0; i < kBatchTriangles; ++i) change[i] = stored_lane(law, state, flow, i);
@@ -104,8 +103,8 @@ GS_ALWAYS_INLINE void add_stored(const Foam& law, const double* state, const Cor
 }
 
 /// As for DH36, `drag` = eta/dt.
-GS_ALWAYS_INLINE void flow_batch(const Foam& law, double* state, const CoreFlow& flow, double drag, int lanes,
-                                 double* work, RowSweep& row) {
+GS_ALWAYS_INLINE void flow_batch(const Foam& law, double* state, const FullMemory& flow, double drag, int lanes,
+                                 double* work, RowOutcome& row) {
   alignas(kAlignment) FoamReturn local;
   double overshoot = 0.0;
 #pragma omp simd reduction(max : overshoot)
@@ -124,11 +123,10 @@ GS_ALWAYS_INLINE void flow_batch(const Foam& law, double* state, const CoreFlow&
   }
 }
 
-GS_ALWAYS_INLINE void correct(const Foam& law, double* state, const CoreFlow& flow, double drag, int lanes,
-                              double* work, RowSweep& row) {
+GS_ALWAYS_INLINE void correct(const Foam& law, double* state, const FullMemory& flow, double drag, int lanes,
+                              double* work, RowOutcome& row) {
   flow_batch(law, state, flow, drag, lanes, work, row);
   add_stored(law, state, flow, lanes, row);
 }
 
-}  // namespace
 }  // namespace grainstep::fe

@@ -1,9 +1,10 @@
-/// @file A directory that only its owner may enter, gone when this object is: home of local sockets.
+/// @file A directory that only its owner may enter, gone when this object is: home of local sockets, and of tests'
+/// files.
 #pragma once
 
 #include <filesystem>
 
-namespace grainstep::orchestrator {
+namespace grainstep {
 
 class TemporaryDirectory {
  public:
@@ -23,4 +24,4 @@ class TemporaryDirectory {
   bool removed_ = false;
 };
 
-}  // namespace grainstep::orchestrator
+}  // namespace grainstep

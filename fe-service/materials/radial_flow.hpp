@@ -1,36 +1,23 @@
-/// @file From the elastic predictor of a batch to its stress, per material. `state` holds the predictor. All of it is
-/// inlined into every copy of the element loop: a function that copies share is fused differently by the compiler, and
-/// another measure would change the last bits of plane strain.
+/// @file From the elastic predictors of a batch to its stresses where flow is along the predictor's deviator (J2). For
+/// any law whose local problem is given at a point, by three functions beside it (radial_return.hpp has DH36's):
+///     return_step(law, q, plastic_strain, parameter, s, d)                one step of the local iteration in s = ln d
+///     largest_increment(law, q, static_strength)                          where it may begin
+///     first_increment(law, q, plastic_strain, static_strength)            the same at first yield
+/// and whose state is that of RadialComponent.
 #pragma once
 
-#include "fe-service/kernel/batch.hpp"
+#include <concepts>
+
 #include "fe-service/materials/radial_return.hpp"
 
 namespace grainstep::fe {
-namespace {
 
-/// What the return needs to know besides the predictor, per triangle.
-struct Flow {
-  double volume[kBatchTriangles];    ///< m^3, at the middle of the step
-  double old_work[kBatchTriangles];  ///< rotated old deviator : deviator of the predictor, Pa^2
+template <class Law>
+concept FlowsRadially = requires(const Law& law, double x) {
+  { return_step(law, x, x, x, x, x) } -> std::same_as<ReturnPoint>;
+  { largest_increment(law, x, x) } -> std::same_as<double>;
+  { first_increment(law, x, x, x) } -> std::same_as<double>;
 };
-
-GS_ALWAYS_INLINE Stress stress_of(const double* state, int i) {
-  return {state[kXX * kBatchTriangles + i], state[kYY * kBatchTriangles + i], state[kXY * kBatchTriangles + i],
-          state[kZZ * kBatchTriangles + i]};
-}
-
-GS_ALWAYS_INLINE void set_stress(double* state, int i, const Stress& s) {
-  state[kXX * kBatchTriangles + i] = s.xx;
-  state[kYY * kBatchTriangles + i] = s.yy;
-  state[kXY * kBatchTriangles + i] = s.xy;
-  state[kZZ * kBatchTriangles + i] = s.zz;
-}
-
-GS_ALWAYS_INLINE void remember(Flow& flow, int i, double volume, const Stress& old, const Stress& trial, double) {
-  flow.volume[i] = volume;
-  flow.old_work[i] = contract(deviator(old), deviator(trial));
-}
 
 /// The local problems of a batch. A lane at rest gets numbers that are safe to compute with, and none of them is kept.
 /// No flags: arrays of another size than double's keep GCC from vectorising.
@@ -44,7 +31,8 @@ struct Return {
 
 /// A lane starts from its last increment, which is seldom far off, or from the bound if that is smaller. Returns the
 /// overshoot of a lane without a last one, else 0.
-GS_ALWAYS_INLINE double start_lane(const Dh36& law, const double* strength, const double* last, int i, Return& local) {
+template <FlowsRadially Law>
+GS_ALWAYS_INLINE double start_lane(const Law& law, const double* strength, const double* last, int i, Return& local) {
   const double over = local.overshoot[i];
   const double before = last[i];
   const double largest = largest_increment(law, over > 0.0 ? local.q[i] : 2.0 * strength[i], strength[i]);
@@ -53,7 +41,8 @@ GS_ALWAYS_INLINE double start_lane(const Dh36& law, const double* strength, cons
   return before > 0.0 ? 0.0 : over;
 }
 
-GS_ALWAYS_INLINE void first_start_lane(const Dh36& law, const double* plastic_strain, const double* strength,
+template <FlowsRadially Law>
+GS_ALWAYS_INLINE void first_start_lane(const Law& law, const double* plastic_strain, const double* strength,
                                        const double* last, int i, Return& local) {
   const double over = local.overshoot[i];
   const double before = local.d[i];
@@ -63,11 +52,12 @@ GS_ALWAYS_INLINE void first_start_lane(const Dh36& law, const double* plastic_st
 }
 
 /// Returns by how much the lane misses the tolerance, at most 0 when it is done.
-GS_ALWAYS_INLINE double return_step_lane(const Dh36& law, const double* plastic_strain, double log_rate_scale, int i,
+template <FlowsRadially Law>
+GS_ALWAYS_INLINE double return_step_lane(const Law& law, const double* plastic_strain, double parameter, int i,
                                          Return& local) {
   const double q = local.q[i];
   const double over = local.overshoot[i];
-  const ReturnPoint point = return_step(law, q, plastic_strain[i], log_rate_scale, local.s[i], local.d[i]);
+  const ReturnPoint point = return_step(law, q, plastic_strain[i], parameter, local.s[i], local.d[i]);
   local.s[i] += point.step;
   local.d[i] *= std::exp(point.step);
   local.strength[i] = point.static_strength;
@@ -75,8 +65,9 @@ GS_ALWAYS_INLINE double return_step_lane(const Dh36& law, const double* plastic_
 }
 
 /// Solves the local problem of all lanes that yield. False: some lane did not converge.
-GS_ALWAYS_INLINE bool solve_return(const Dh36& law, const double* plastic_strain, const double* strength,
-                                   const double* last, double log_rate_scale, Return& local) {
+template <FlowsRadially Law>
+GS_ALWAYS_INLINE bool solve_return(const Law& law, const double* plastic_strain, const double* strength,
+                                   const double* last, double parameter, Return& local) {
   double first = 0.0;
 #pragma omp simd reduction(max : first)
   for (int i = 0; i < kBatchTriangles; ++i) {
@@ -93,7 +84,7 @@ GS_ALWAYS_INLINE bool solve_return(const Dh36& law, const double* plastic_strain
     double worst = 0.0;
 #pragma omp simd reduction(max : worst)
     for (int i = 0; i < kBatchTriangles; ++i) {
-      const double miss = return_step_lane(law, plastic_strain, log_rate_scale, i, local);
+      const double miss = return_step_lane(law, plastic_strain, parameter, i, local);
       worst = miss > worst ? miss : worst;
     }
     if (worst <= 0.0) return true;
@@ -102,7 +93,9 @@ GS_ALWAYS_INLINE bool solve_return(const Dh36& law, const double* plastic_strain
 }
 
 /// Returns the plastic work, J.
-GS_ALWAYS_INLINE double return_lane(const Dh36& law, const Return& local, const Flow& flow, double* state, int i) {
+template <FlowsRadially Law>
+GS_ALWAYS_INLINE double return_lane(const Law& law, const Return& local, const RadialMemory& flow, double* state,
+                                    int i) {
   const bool yields = local.overshoot[i] > 0.0;
   const double found = local.d[i];
   const double new_strength = local.strength[i];
@@ -122,13 +115,12 @@ GS_ALWAYS_INLINE double return_lane(const Dh36& law, const Return& local, const 
   return 0.5 * (scale * q + 1.5 * flow.old_work[i] * inverse_q) * d * flow.volume[i];
 }
 
-inline void correct(const Elastic&, double*, const Flow&, double, int, double*, RowSweep&) {}
-
 /// Radial return; adds the plastic work of the first `lanes` quads to `work`. That is the sum of (old + new stress)/2 :
 /// plastic strain increment x volume at the middle of the step: the part of the trapezoidal internal work that the
 /// stored energy does not account for.
-GS_ALWAYS_INLINE void correct(const Dh36& law, double* state, const Flow& flow, double log_rate_scale, int lanes,
-                              double* work, RowSweep& row) {
+template <FlowsRadially Law>
+GS_ALWAYS_INLINE void correct(const Law& law, double* state, const RadialMemory& flow, double parameter, int lanes,
+                              double* work, RowOutcome& row) {
   const double* strength = state + kStaticStrength * kBatchTriangles;
   alignas(kAlignment) Return local;
   double overshoot = 0.0;
@@ -143,7 +135,7 @@ GS_ALWAYS_INLINE void correct(const Dh36& law, double* state, const Flow& flow, 
   if (overshoot <= 0.0) return;
   ++row.yielding;
   const bool solved = solve_return(law, state + kPlasticStrain * kBatchTriangles, strength,
-                                   state + kLastIncrement * kBatchTriangles, log_rate_scale, local);
+                                   state + kLastIncrement * kBatchTriangles, parameter, local);
   row.unconverged += solved ? 0 : 1;
   alignas(kAlignment) double done[kBatchTriangles];
 #pragma omp simd
@@ -153,5 +145,4 @@ GS_ALWAYS_INLINE void correct(const Dh36& law, double* state, const Flow& flow, 
   }
 }
 
-}  // namespace
 }  // namespace grainstep::fe

@@ -1,29 +1,9 @@
 /// @file From the elastic predictor of a batch to its stress, sandwich core.
 #pragma once
 
-#include "fe-service/kernel/correct.hpp"
 #include "fe-service/materials/core.hpp"
 
 namespace grainstep::fe {
-namespace {
-
-/// What the core's update, and a foam's, needs to know besides the predictor, per triangle.
-struct CoreFlow {
-  double volume[kBatchTriangles];        ///< m^3, at the middle of the step
-  double half_tangent[kBatchTriangles];  ///< tan of half the rotation during the step
-  double old_xx[kBatchTriangles], old_yy[kBatchTriangles];
-  double old_xy[kBatchTriangles], old_zz[kBatchTriangles];  ///< stress before the step, turned to its end, Pa
-};
-
-GS_ALWAYS_INLINE void remember(CoreFlow& flow, int i, double volume, const Stress& old, const Stress&,
-                               double half_tangent) {
-  flow.volume[i] = volume;
-  flow.half_tangent[i] = half_tangent;
-  flow.old_xx[i] = old.xx;
-  flow.old_yy[i] = old.yy;
-  flow.old_xy[i] = old.xy;
-  flow.old_zz[i] = old.zz;
-}
 
 /// Local problems of a batch, in the material frame.
 struct CoreReturn {
@@ -38,7 +18,7 @@ struct CoreReturn {
 };
 
 /// Turns the material axes and looks at the predictor in them. Returns how far it is beyond the strength.
-GS_ALWAYS_INLINE double turn_lane(const Core& law, const CoreFlow& flow, double* state, int i, CoreReturn& local) {
+GS_ALWAYS_INLINE double turn_lane(const Core& law, const FullMemory& flow, double* state, int i, CoreReturn& local) {
   const double t = flow.half_tangent[i];
   const double scale = 1.0 / (1.0 + t * t);
   const double cosine = (1.0 - t * t) * scale;
@@ -88,7 +68,7 @@ GS_ALWAYS_INLINE bool solve_core(const Core& law, const double* compaction, doub
 }
 
 /// Returns the work of the plastic strains, J.
-GS_ALWAYS_INLINE double core_lane(const Core& law, const CoreReturn& local, const CoreFlow& flow, double drag,
+GS_ALWAYS_INLINE double core_lane(const Core& law, const CoreReturn& local, const FullMemory& flow, double drag,
                                   double* state, int i) {
   const Stress trial = local.trial(i);
   const CoreFlowIncrement x = {local.xx[i], local.yy[i], local.zz[i], shear_increment(law, trial.xy, drag)};
@@ -103,8 +83,8 @@ GS_ALWAYS_INLINE double core_lane(const Core& law, const CoreReturn& local, cons
 }
 
 /// As for DH36; `drag` = eta/dt.
-GS_ALWAYS_INLINE void correct(const Core& law, double* state, const CoreFlow& flow, double drag, int lanes,
-                              double* work, RowSweep& row) {
+GS_ALWAYS_INLINE void correct(const Core& law, double* state, const FullMemory& flow, double drag, int lanes,
+                              double* work, RowOutcome& row) {
   alignas(kAlignment) CoreReturn local;
   double overshoot = 0.0;
 #pragma omp simd reduction(max : overshoot)
@@ -123,5 +103,4 @@ GS_ALWAYS_INLINE void correct(const Core& law, double* state, const CoreFlow& fl
   }
 }
 
-}  // namespace
 }  // namespace grainstep::fe
