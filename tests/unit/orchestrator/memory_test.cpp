@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -60,7 +60,7 @@ TEST(Memory, TheMachineHasSome) { EXPECT_GT(memory_of_machine().value_or(0), gib
 
 // Both ways in which Linux shows a container's limit; one without a limit says "max", or more than all memory.
 TEST(Memory, AContainerHasWhatItsGroupAllows) {
-  const grainstep::testing::TemporaryDirectory scratch;
+  const TemporaryDirectory scratch;
   const std::filesystem::path& groups = scratch.path();
   const std::uint64_t all = memory_of_machine(groups).value();
   constexpr std::uint64_t limit = 64ULL << 20U;

@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "orchestrator/recorder.hpp"
-#include "temporary_directory.hpp"
+#include "base/temporary_directory.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -42,7 +42,7 @@ class GuardedRun {
     for (const double x : {0.0, 0.0, 1.0, 0.0}) surface_.add_position(x);
     surface_.add_segment(0);
     surface_.add_segment(1);
-    directory_.prepare(results::Existing::refuse);
+    static_cast<void>(directory_.prepare(results::Existing::refuse));
     file_.emplace(directory_.results(), std::vector<results::Text>{});
     recorder_.emplace(Recorder::Context{.scene = scene_, .groups = groups_, .plan = plan_, .surface = surface_},
                       directory_, *file_, nullptr);
@@ -92,7 +92,7 @@ class GuardedRun {
   scene::Groups groups_ = scene::groups(scene_);
   StepPlan plan_;
   wire::Surface surface_;
-  grainstep::testing::TemporaryDirectory scratch_;
+  TemporaryDirectory scratch_;
   results::RunDirectory directory_{scratch_.path() / "run"};
   std::optional<results::ResultsFile> file_;
   std::optional<Recorder> recorder_;
