@@ -96,13 +96,17 @@ Oscillation between(Samples samples, const std::pair<Passage, Passage>& ends, do
   return out;
 }
 
-/// Drops what comes before the turn after the first sample: the sample that lies farthest from it.
+/// Drops what the structure does before its first turn: the first one after 95% of the way from the first sample to the
+/// one that is farthest from it, for ripple may make a later turn the farthest.
 Samples from_the_turn(Samples samples) {
-  const auto farther = [start = samples.front().deflection](const DeflectionSample& a, const DeflectionSample& b) {
-    return std::abs(a.deflection - start) < std::abs(b.deflection - start);
-  };
-  const auto turn = std::max_element(samples.begin(), samples.end(), farther);
-  return samples.subspan(static_cast<std::size_t>(turn - samples.begin()));
+  constexpr double most = 0.95;
+  const auto way = [&](std::size_t i) { return std::abs(samples[i].deflection - samples[0].deflection); };
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) farthest = std::max(farthest, way(i));
+  std::size_t turn = 0;
+  while (way(turn) < most * farthest) ++turn;
+  while (turn + 1 < samples.size() && way(turn + 1) > way(turn)) ++turn;
+  return samples.subspan(turn);
 }
 
 /// The last swing in terms of the range of all samples, which it passes by `part` either side of the middle. A smaller
