@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 import numpy as np
-from runs import BIN, QUICK, SOURCE, Run, pathlib, subprocess, tempfile
+from runs import BIN, PATIENCE, QUICK, SOURCE, Run, pathlib, subprocess, tempfile
 
 LOADS = SOURCE / "configs/loads"
 ROUND_OFF = 1e-11  # relative, sums of some thousand windows
@@ -12,14 +12,14 @@ ROUND_OFF = 1e-11  # relative, sums of some thousand windows
 
 def finished(*settings, scene=QUICK, options=("--quiet",)):
     words = [word for key in settings for word in ("--set", key)]
-    run = Run(*options, *words, scene=scene).end(120)
+    run = Run(*options, *words, scene=scene).end()
     assert run.code == 0, run.stderr
     return run
 
 
 def checked(*settings, scene=QUICK):
     words = [word for key in settings for word in ("--set", key)]
-    return subprocess.run([BIN / "grainstep", "check", scene, *words], capture_output=True, text=True, timeout=60)
+    return subprocess.run([BIN / "grainstep", "check", scene, *words], capture_output=True, text=True, timeout=PATIENCE)
 
 
 class Scales(unittest.TestCase):
@@ -63,7 +63,7 @@ class Scales(unittest.TestCase):
             self.assertGreater(summary["peak_deflection_seconds"], 1e-4)
             self.assertRegex(run.stdout, r"w/L at [0-9.]+ ms \(run to 1[.0-9]* ms\)")
             self.assertAlmostEqual(summary["transmitted_impulse"], 1.0, delta=0.02)
-            plotted = subprocess.run([SOURCE / "tools/plot", run.out], capture_output=True, text=True, timeout=120)
+            plotted = subprocess.run([SOURCE / "tools/plot", run.out], capture_output=True, text=True, timeout=PATIENCE)
             self.assertEqual(plotted.returncode, 0, plotted.stderr)
 
     def test_a_coating_is_not_the_metal(self):
@@ -186,7 +186,7 @@ class Counts(unittest.TestCase):
             study.write_text(f"title: Few windows\nscene: {QUICK}\nset: [{words}]\nseries: [{{ name: one }}]\n")
             out = pathlib.Path(scratch) / "out"
             done = subprocess.run([BIN / "grainstep", "study", study, "--out", out, "--quiet"], capture_output=True,
-                                  text=True, timeout=120)
+                                  text=True, timeout=PATIENCE)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(done.stderr.count("output.rows: 500 were asked for"), 1, done.stderr)
 
@@ -200,7 +200,7 @@ class Counts(unittest.TestCase):
             program, *arguments = run.process.stdout.readline().split()
             with subprocess.Popen([BIN / program, *arguments]) as structure:
                 self.assertEqual(run.end().code, 0, run.stderr)
-                self.assertEqual(structure.wait(60), 0)
+                self.assertEqual(structure.wait(PATIENCE), 0)
             self.assertEqual(run.stderr.count("output.rows: 500 were asked for"), 1, run.stderr)
 
 

