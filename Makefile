@@ -12,7 +12,7 @@ help:
 	@echo "make test      build and run the quick tests"
 	@echo "make build     programs in $(BUILD)/bin"
 	@echo "make test-long the long tests: convergence, full scenes"
-	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md (under 30 minutes)"
+	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md and its pages (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
 	@echo "make drill     faults put into a copy of the sources: which tests see them (docs/drill.md, about an hour)"
 	@echo "make golden    do short runs of every kind still give the bits of this results version"

@@ -17,8 +17,8 @@ namespace grainstep::orchestrator {
 /// By the scene or by the command line.
 [[nodiscard]] bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& options);
 
-/// InputError for connections that cannot be made, keys that cannot be used, and options that nobody would read: a slip,
-/// and about encryption a dangerous one.
+/// InputError for connections that cannot be made, keys that cannot be used, and options that nobody would read: a
+/// slip, and about encryption a dangerous one.
 void check_connection(const scene::Scene& scene, const RunOptions& options);
 
 /// A slug is computed by grainstep-dem; what else loads a structure, by grainstep-fe in the impactor's role.

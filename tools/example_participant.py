@@ -10,6 +10,7 @@ proto/README.md. Needs protoc and the Python packages protobuf, zmq and xxhash.
 
 import argparse
 import importlib
+import math
 import os
 import pathlib
 import struct
@@ -92,6 +93,13 @@ class Orchestrator:
         envelope = self.wire.Envelope.FromString(payload)
         kind = envelope.WhichOneof("body")
         return kind, getattr(envelope, kind) if kind else None
+
+
+def falls_due(every, window, windows):
+    """Whether what comes every so many windows is due at this one (proto/README.md)."""
+    if not every > 0.0:
+        return False
+    return window in (0, windows) or math.floor(window / every) > math.floor((window - 1) / every)
 
 
 class MassOnSpring:
@@ -217,7 +225,8 @@ class Participant:
     def extra(self, start, window, model, at):
         if falls_due(start.report_every, window, start.windows):
             self.talk.send(report=model.report(self.wire, window, at, self.timing()))
-        if falls_due(start.snapshot_every, window, start.windows):
+        only_last = start.snapshot_every > start.windows
+        if window == start.windows if only_last else falls_due(start.snapshot_every, window, start.windows):
             field = self.wire.Field(name="velocity", unit="m/s", components=2, value=[0.0, at["v"], 0.0, at["v"]])
             self.talk.send(snapshot=self.wire.Snapshot(
                 window=window, position=[model.left, at["x"], model.right, at["x"]], point_field=[field]))

@@ -3,14 +3,14 @@ import subprocess
 import unittest
 
 import h5py
-from runs import BIN, SOURCE, Run
+from runs import BIN, PATIENCE, SOURCE, Run
 
 
 
 def finished(*settings, scene):
     words = [word for setting in ("output.snapshots=0", *settings) for word in ("--set", setting)]
     with Run("--quiet", *words, scene=SOURCE / scene) as run:
-        run.end(300.0)
+        run.end()
         assert run.code == 0, run.stderr
         with h5py.File(run.out / "results.h5") as file:
             data = {"momentum": file["ledger/impactor/momentum/change_x2"][-1],
@@ -22,7 +22,7 @@ def finished(*settings, scene):
 def check(*settings, scene):
     words = [word for setting in settings for word in ("--set", setting)]
     return subprocess.run([BIN / "grainstep", "check", SOURCE / scene, *words], capture_output=True, text=True,
-                          timeout=120)
+                          timeout=PATIENCE)
 
 
 class AutomaticSteps(unittest.TestCase):

@@ -28,7 +28,8 @@ class SlugOfSpheres(unittest.TestCase):
         summary = self.run_.summary()
         self.assertEqual(summary["particles"], 1562)  # rho_bar (phi/2) a^2 H/(pi D^3/6)
         self.assertAlmostEqual(summary["impulse_number"], 0.67, delta=1e-3)
-        self.assertAlmostEqual(summary["areal_mass_ratio"], RHO * HEIGHT / 160.0, places=12)
+        # Of the spheres that were made; their number is whole.
+        self.assertAlmostEqual(summary["areal_mass_ratio"], RHO * HEIGHT / 160.0, delta=0.5 / 1562)
         # Eight seeds: 0.0503 to 0.0509 and 1.07 to 1.12; twice their range leaves room for other machines.
         self.assertAlmostEqual(summary["peak_deflection"], 0.0505, delta=0.0012)
         self.assertAlmostEqual(summary["early_pressure"], 1.095, delta=0.11)

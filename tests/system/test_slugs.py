@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 from runs import SOURCE, Run
 
-COARSE = ("--set", "impactor.slug.particle.diameter=4 mm", "--set", "structure.mesh.refinement=2", "--set", "output.snapshots=1",
+COARSE = ("--set", "impactor.slug.particle.diameter=4 mm", "--set", "structure.mesh.refinement=2", "--set", "output.snapshots=2",
           "--set", "time.end=0.1")
 PLATE = SOURCE / "configs/small/plate-monolithic.yaml"
 DENSITY, DEPTH, HALF_WIDTH, HEIGHT, SPEED = 2700.0, 1e-3, 0.1, 0.3, 400.0

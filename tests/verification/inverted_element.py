@@ -18,7 +18,7 @@ class InvertedElement(unittest.TestCase):
                                reason=reason))
 
     def test_is_located_and_leaves_what_was_sound(self):
-        with Run("--set", "structure.layers.0.young=50 MPa", "--set", "output.rows=3000") as run:
+        with Run("--set", "structure.layers.0.young=50 MPa", "--set", "output.rows=100000") as run:
             self.assertIsNotNone(run.end().code)
             self.expect("exit code", 3.0, run.code, "exact: numerical failure")
             place = re.search(r"element quality: the \w+ triangle of quad \(column (\d+), row (\d+)\).*"

@@ -42,7 +42,7 @@ class GuardedRun {
     for (const double x : {0.0, 0.0, 1.0, 0.0}) surface_.add_position(x);
     surface_.add_segment(0);
     surface_.add_segment(1);
-    directory_.prepare(results::Existing::refuse);
+    static_cast<void>(directory_.prepare(results::Existing::refuse));
     file_.emplace(directory_.results(), std::vector<results::Text>{});
     recorder_.emplace(Recorder::Context{.scene = scene_, .groups = groups_, .plan = plan_, .surface = surface_},
                       directory_, *file_, nullptr);

@@ -15,7 +15,7 @@ def rebound(refinement, spreading):
     """m/s after the impact, and the largest energy drift."""
     settings = (f"structure.mesh.refinement={refinement}", f"impactor.slug.surface_contact.spreading={spreading}")
     with Run("--quiet", *(word for setting in settings for word in ("--set", setting)), scene=SCENE) as run:
-        run.end(600.0)
+        run.end()
         assert run.code in (0, 3), run.stderr
         with h5py.File(run.out / "results.h5") as file:
             kinetic = file["ledger/impactor/energy/kinetic"][()]

@@ -50,7 +50,7 @@ TEST(Codec, the_bytes_are_the_documented_ones) {
   forces.add_impulse(1.0);
   const auto frame = copy(encoder.encode(forces));
   // proto/README.md prints these bytes.
-  EXPECT_EQ(std::memcmp(frame.data(), "GSTP\x01\0\0\0\x01\0\0\0\0\0\0\0\x75\x0c\xdc\x68\x67\x77\xe4\xb5", 24), 0);
+  EXPECT_EQ(std::memcmp(frame.data(), "GSTP\x02\0\0\0\x01\0\0\0\0\0\0\0\x75\x0c\xdc\x68\x67\x77\xe4\xb5", 24), 0);
   Envelope envelope;  // what any Protobuf library would send and expect
   *envelope.mutable_forces() = forces;
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(frame.data()) + header_size, frame.size() - header_size),
@@ -103,7 +103,7 @@ TEST(Codec, every_damage_is_named) {
   EXPECT_NE(refusal(decoder, std::span(good).first(23)).find("found a frame of 23 bytes, expected at least 24"),
             std::string::npos);
   EXPECT_NE(refusal(decoder, with(0, 'X')).find("starts with 'GSTP'"), std::string::npos);
-  EXPECT_NE(refusal(decoder, with(4, 9)).find("speaks protocol version 9, this program version 1"), std::string::npos);
+  EXPECT_NE(refusal(decoder, with(4, 9)).find("speaks protocol version 9, this program version 2"), std::string::npos);
   EXPECT_NE(refusal(decoder, with(8, 7)).find("sequence number 7, expected 1"), std::string::npos);
   EXPECT_NE(refusal(decoder, with(good.size() - 1, 0x55)).find("message 1: checksum"), std::string::npos);
   EXPECT_NE(refusal(decoder, std::span(good).first(good.size() - 1)).find("checksum"), std::string::npos);
