@@ -194,7 +194,8 @@ TEST_F(ServeStructure, a_setup_of_another_version_or_role_is_refused) {
     auto other = setup();
     other.set_protocol(9);
     talk.tell(other);
-    EXPECT_EQ(talk.hear<wire::Error>().text(), "orchestrator: Setup names protocol version 9, this program speaks 2");
+    EXPECT_EQ(talk.hear<wire::Error>().text(), "orchestrator: Setup names protocol version 9, this program speaks " +
+                                                   std::to_string(wire::PROTOCOL_VERSION));
     EXPECT_EQ(talk.exit_code(), 4);
   }
   auto& talk = orchestrator();
