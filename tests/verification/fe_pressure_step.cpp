@@ -141,7 +141,18 @@ TEST(FePressureStep, RingsWithoutBulkViscosity) {
   const Closed closed;
   const Profile found = strike({})[1];
   const double slow = closed.plastic_speed * found.time;
-  EXPECT_GT(found.mean(found.plastic, 0.1 * slow, 0.8 * slow), 1.03 * closed.plastic_strain);
+  const double mean = found.mean(found.plastic, 0.1 * slow, 0.8 * slow) / closed.plastic_strain;
+  EXPECT_GT(mean, 1.03);
+  verification::check({.group = "structure",
+                       .name = "Step of pressure on perfectly plastic steel, without bulk viscosity",
+                       .quantity = "plastic strain behind over that of the closed form: it rings, as is known",
+                       .unit = "",
+                       .reference = "recorded run",
+                       .origin = "docs/decisions/0014-bulk-viscosity.md",
+                       .expected = 1.044,
+                       .found = mean,
+                       .tolerance = 5e-3,
+                       .reason = "discretisation: 200 quads, no viscosity"});
   EXPECT_GT(*std::max_element(found.plastic.begin(), found.plastic.end()), 1.1 * closed.plastic_strain);
 }
 
