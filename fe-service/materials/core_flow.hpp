@@ -1,6 +1,8 @@
 /// @file From the elastic predictor of a batch to its stress, sandwich core.
 #pragma once
 
+#include <cstddef>
+
 #include "fe-service/materials/core.hpp"
 
 namespace grainstep::fe {
@@ -94,7 +96,7 @@ GS_ALWAYS_INLINE void correct(const Core& law, double* state, const FullMemory& 
   }
   if (overshoot <= 0.0) return;
   ++row.yielding;
-  row.unconverged += solve_core(law, state + kCompaction * kBatchTriangles, drag, local) ? 0 : 1;
+  row.unconverged += solve_core(law, state + std::ptrdiff_t{kCompaction} * kBatchTriangles, drag, local) ? 0 : 1;
   alignas(kAlignment) double done[kBatchTriangles];
 #pragma omp simd
   for (int i = 0; i < kBatchTriangles; ++i) done[i] = core_lane(law, local, flow, drag, state, i);

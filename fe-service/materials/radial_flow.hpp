@@ -7,6 +7,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 
 #include "fe-service/materials/radial_return.hpp"
 
@@ -121,7 +122,7 @@ GS_ALWAYS_INLINE double return_lane(const Law& law, const Return& local, const R
 template <FlowsRadially Law>
 GS_ALWAYS_INLINE void correct(const Law& law, double* state, const RadialMemory& flow, double parameter, int lanes,
                               double* work, RowOutcome& row) {
-  const double* strength = state + kStaticStrength * kBatchTriangles;
+  const double* strength = state + std::ptrdiff_t{kStaticStrength} * kBatchTriangles;
   alignas(kAlignment) Return local;
   double overshoot = 0.0;
 #pragma omp simd reduction(max : overshoot)
@@ -134,8 +135,8 @@ GS_ALWAYS_INLINE void correct(const Law& law, double* state, const RadialMemory&
   }
   if (overshoot <= 0.0) return;
   ++row.yielding;
-  const bool solved = solve_return(law, state + kPlasticStrain * kBatchTriangles, strength,
-                                   state + kLastIncrement * kBatchTriangles, parameter, local);
+  const bool solved = solve_return(law, state + std::ptrdiff_t{kPlasticStrain} * kBatchTriangles, strength,
+                                   state + std::ptrdiff_t{kLastIncrement} * kBatchTriangles, parameter, local);
   row.unconverged += solved ? 0 : 1;
   alignas(kAlignment) double done[kBatchTriangles];
 #pragma omp simd

@@ -60,7 +60,7 @@ class Stage {
     });
     EventLoop loop;
     Hub hub(*impactor_end_, *structure_end_, loop);
-    const std::string ending = converse(hub, end);
+    std::string ending = converse(hub, end);
     impactor_end_.reset();
     structure_end_.reset();
     impactor.join();

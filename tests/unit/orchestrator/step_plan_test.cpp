@@ -170,7 +170,7 @@ TEST(StepPlan, RefusesWhatNoIntegerCounts) {
 }
 
 TEST(StepPlan, HeavyParticlesOnLightNodesGetEqualSteps) {
-  const auto plan_of = [](scene::Scene scene, double structure_step) {
+  const auto plan_of = [](const scene::Scene& scene, double structure_step) {
     SideSteps heavy = impactor;
     heavy.contact_mass = 2e-3;
     return plan_steps(scene, 3e-3, heavy,
