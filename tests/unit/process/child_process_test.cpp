@@ -32,7 +32,7 @@ class ChildProcessTest : public ::testing::Test {
     return line;
   }
   std::filesystem::path make_pipe(const std::string& name) const {
-    const auto path = directory_.path() / name;
+    auto path = directory_.path() / name;
     EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
     return path;
   }

@@ -20,6 +20,14 @@ constexpr double silence_s = 4.0;
 ZmqOptions fast() { return {.heartbeat_s = 0.1, .silence_s = silence_s, .linger_s = 0.2}; }
 
 class ZmqLoss : public ::testing::Test {
+ public:
+  ~ZmqLoss() override {
+    if (child_ > 0) {
+      ::kill(child_, SIGKILL);
+      ::waitpid(child_, nullptr, 0);
+    }
+  }
+
  protected:
   /// A child process that connects, greets and then waits for a message, for ever. Exit code 4: it lost us.
   void fork_peer() {
@@ -47,13 +55,6 @@ class ZmqLoss : public ::testing::Test {
     ::waitpid(child_, &status, 0);
     child_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  ~ZmqLoss() override {
-    if (child_ > 0) {
-      ::kill(child_, SIGKILL);
-      ::waitpid(child_, nullptr, 0);
-    }
   }
 
   TemporaryDirectory directory_;

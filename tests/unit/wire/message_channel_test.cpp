@@ -88,7 +88,7 @@ TEST(MessageChannel, notices_every_fault_of_the_way) {
   EXPECT_EQ(noticed({Kind::duplicate, 2, 0}),
             "left: message 3: found sequence number 2, expected 3: messages were lost or repeated");
   EXPECT_EQ(noticed({Kind::truncate, 2, 10}), "left: message 2: found a frame of 10 bytes, expected at least 24");
-  EXPECT_NE(noticed({Kind::flip_bit, 2, 8 * 30}).find("left: message 2: checksum"), std::string::npos);
+  EXPECT_NE(noticed({Kind::flip_bit, 2, std::size_t{8} * 30}).find("left: message 2: checksum"), std::string::npos);
 }
 
 }  // namespace
