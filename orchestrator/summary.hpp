@@ -1,7 +1,7 @@
 /// @file summary.json: a page of numbers for people and scripts (docs/user/results.md says what each means).
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 

@@ -1,4 +1,5 @@
-/// @file How a participant's main finds its orchestrator: three options and one call.
+/// @file How a participant finds its orchestrator. A program of its own takes these options from its command line
+/// (program.hpp).
 #pragma once
 
 #include <filesystem>
@@ -6,10 +7,6 @@
 #include <string>
 
 #include "transport/channel.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace grainstep::participant {
 
@@ -19,9 +16,6 @@ struct ConnectOptions {
   double connect_deadline_s = 120.0;
   bool allow_plain_tcp = false;
 };
-
-/// Adds --connect (required), --curve-dir, --connect-deadline and --allow-plain-tcp.
-void add_connect_options(CLI::App& app, ConnectOptions& options);
 
 /// The channel to the orchestrator. Tries until somebody answers; PeerError (exit code 4) when nobody does within the
 /// deadline, InputError (exit code 2) for an endpoint or keys that cannot be used.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <utility>
 
 #include "base/error.hpp"
 #include "results/atomic_file.hpp"
@@ -16,10 +17,11 @@ constexpr std::size_t room_per_dataset = std::size_t{80} * 1024;
 constexpr std::size_t room_for_library = std::size_t{256} * 1024;
 
 // The system's own reason, without the exception for errno values that ::posix_fallocate returns.
-void reserve_bytes(const std::filesystem::path& path, std::size_t bytes) {
+// `name` is the one that people know the file by.
+void reserve_bytes(const std::filesystem::path& path, const std::filesystem::path& name, std::size_t bytes) {
   const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (fd < 0) {
-    throw OutputError(path.string() + ": cannot be opened: " + std::strerror(errno));
+    throw OutputError(name.string() + ": cannot be opened: " + std::strerror(errno));
   }
   const off_t size = ::lseek(fd, 0, SEEK_END);
   const int reason = ::posix_fallocate(fd, size, static_cast<off_t>(bytes));
@@ -28,7 +30,7 @@ void reserve_bytes(const std::filesystem::path& path, std::size_t bytes) {
   }
   ::close(fd);
   if (reason != 0) {
-    throw OutputError(path.string() + ": no room for " + std::to_string(bytes / 1024) + " KiB more: " +
+    throw OutputError(name.string() + ": no room for " + std::to_string(bytes / 1024) + " KiB more: " +
                       std::strerror(reason) + (size > 0 ? ". What was written before is readable." : ""));
   }
 }
@@ -38,7 +40,7 @@ void require_room_for_a_new(const std::filesystem::path& path) {
   std::error_code ignored;
   try {
     write_atomically(path, "");
-    reserve_bytes(path, room_for_library);
+    reserve_bytes(path, path, room_for_library);
   } catch (...) {
     std::filesystem::remove(path, ignored);
     throw;
@@ -48,12 +50,13 @@ void require_room_for_a_new(const std::filesystem::path& path) {
 
 }  // namespace
 
-ResultsFile::ResultsFile(std::filesystem::path path, const std::vector<Text>& texts) : path_(std::move(path)) {
-  if (std::filesystem::exists(path_)) {
-    throw OutputError(path_.string() + ": exists already");
+ResultsFile::ResultsFile(std::filesystem::path path, const std::vector<Text>& texts) : file_(std::move(path)) {
+  const std::filesystem::path& visible = file_.visible();
+  if (std::filesystem::exists(visible)) {
+    throw OutputError(visible.string() + ": exists already");
   }
-  require_room_for_a_new(path_);
-  h5::File file = h5::File::create(path_);
+  require_room_for_a_new(visible);
+  h5::File file = h5::File::create(visible);
   for (const Text& text : texts) {
     file.write(text.dataset, text.contents, text.title);
   }
@@ -62,64 +65,73 @@ ResultsFile::ResultsFile(std::filesystem::path path, const std::vector<Text>& te
 
 void ResultsFile::add(const std::vector<Entry>& row) {
   for (const Entry& entry : row) {
-    Rows& rows = rows_[entry.dataset];
+    Rows& rows = pending_.rows[entry.dataset];
     rows.meaning = entry.meaning;
     rows.values.push_back(entry.value);
   }
-  pending_bytes_ += row.size() * sizeof(double);
+  pending_.bytes += row.size() * sizeof(double);
 }
 
 void ResultsFile::add(const Line& line) {
-  Rows& rows = rows_[line.dataset];
+  Rows& rows = pending_.rows[line.dataset];
   rows.meaning = line.meaning;
   rows.columns = line.values.size();
   rows.values.insert(rows.values.end(), line.values.begin(), line.values.end());
-  pending_bytes_ += line.values.size() * sizeof(double);
+  pending_.bytes += line.values.size() * sizeof(double);
 }
 
 void ResultsFile::add(Array array) {
-  pending_bytes_ += array.values.size() * sizeof(double) + array.indices.size() * sizeof(std::uint32_t);
-  arrays_.push_back(std::move(array));
+  pending_.bytes += array.values.size() * sizeof(double) + array.indices.size() * sizeof(std::uint32_t);
+  pending_.arrays.push_back(std::move(array));
 }
 
-void ResultsFile::reserve() const {
-  reserve_bytes(path_, pending_bytes_ + rows_.size() * room_per_dataset + arrays_.size() * 1024 + room_for_library);
-}
-
-void ResultsFile::write_pending() {
-  h5::File file = h5::File::open(path_);
-  for (auto& [dataset, rows] : rows_) {
-    file.append(dataset, rows.values, rows.columns, rows.meaning);
+void ResultsFile::Burst::write_to(h5::File& file) const {
+  for (const auto& [dataset, kept] : rows) {
+    file.append(dataset, kept.values, kept.columns, kept.meaning);
   }
-  for (const Array& array : arrays_) {
+  for (const Array& array : arrays) {
     if (array.indices.empty()) {
       file.write(array.dataset, array.values, array.columns, array.meaning);
     } else {
       file.write(array.dataset, array.indices, array.columns, array.meaning);
     }
   }
+}
+
+void ResultsFile::Burst::clear() {
+  for (auto& [dataset, kept] : rows) {
+    kept.values.clear();
+  }
+  arrays.clear();
+  bytes = 0;
+}
+
+void ResultsFile::write_bursts() {
+  if (file_.open()) before_.clear();
+  const std::size_t datasets = before_.rows.size() + pending_.rows.size();
+  const std::size_t arrays = before_.arrays.size() + pending_.arrays.size();
+  reserve_bytes(file_.twin(), file_.visible(),
+                before_.bytes + pending_.bytes + datasets * room_per_dataset + arrays * 1024 + room_for_library);
+  h5::File file = h5::File::open(file_.twin());
+  before_.write_to(file);
+  pending_.write_to(file);
   file.close();
+  file_.exchange();
 }
 
 void ResultsFile::flush() {
-  if (pending_bytes_ == 0) {
+  if (pending_.bytes == 0) {
     return;
   }
-  const auto drop = [this] {
-    for (auto& [dataset, rows] : rows_) {
-      rows.values.clear();
-    }
-    arrays_.clear();
-    pending_bytes_ = 0;
-  };
   try {
-    reserve();
-    write_pending();
+    write_bursts();
   } catch (...) {
-    drop();
+    file_.abandon();
+    pending_.clear();
     throw;
   }
-  drop();
+  std::swap(before_, pending_);
+  pending_.clear();
 }
 
 }  // namespace grainstep::results

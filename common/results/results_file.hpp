@@ -1,6 +1,6 @@
-/// @file results.h5: rows and snapshots are kept in memory and written in bursts. Between two bursts the file is
-/// closed, so that whatever ends this process leaves the last burst readable. docs/user/results.md is the file's
-/// catalogue.
+/// @file results.h5: rows and snapshots are kept in memory and written in bursts. A burst is visible as a whole or not
+/// at all (twin_file.hpp), so that whatever ends this process leaves the last burst readable. docs/user/results.md is
+/// the file's catalogue.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "results/hdf5.hpp"
+#include "results/twin_file.hpp"
 
 namespace grainstep::results {
 
@@ -51,10 +52,10 @@ class ResultsFile {
   void add(const Line& line);
   void add(Array array);
 
-  [[nodiscard]] std::size_t pending_bytes() const { return pending_bytes_; }
+  [[nodiscard]] std::size_t pending_bytes() const { return pending_.bytes; }
 
-  /// Writes everything pending. The space is reserved first: on a full disk (OutputError) the file is as the last burst
-  /// left it, whole and readable, and what was pending is dropped.
+  /// Writes everything pending. On a full disk (OutputError) the file is as the last burst left it, whole and readable,
+  /// and what was pending is dropped.
   void flush();
 
  private:
@@ -64,13 +65,21 @@ class ResultsFile {
     std::vector<double> values;
   };
 
-  void reserve() const;
-  void write_pending();
+  /// What one burst writes.
+  struct Burst {
+    std::map<std::string, Rows> rows;
+    std::vector<Array> arrays;
+    std::size_t bytes = 0;
 
-  std::filesystem::path path_;
-  std::map<std::string, Rows> rows_;
-  std::vector<Array> arrays_;
-  std::size_t pending_bytes_ = 0;
+    void write_to(h5::File& file) const;
+    void clear();
+  };
+
+  void write_bursts();
+
+  TwinFile file_;
+  Burst pending_;
+  Burst before_;  // the last one written: visible, but not in the twin yet
 };
 
 }  // namespace grainstep::results

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "results/atomic_file.hpp"
+#include "results/twin_file.hpp"
 
 namespace grainstep::results {
 
@@ -66,6 +67,7 @@ void RunDirectory::remove_run() const {
   std::vector<fs::path> files = {summary(), results(), scene()};
   for (const char* name : series_names) files.push_back(series(name));
   for (std::size_t i = 0, whole = files.size(); i < whole; ++i) files.emplace_back(files[i].string() + ".part");
+  for (const char* left : TwinFile::leftovers) files.emplace_back(results().string() + left);
   for (const fs::path& folder : {paraview(), logs()}) {
     if (!error) {
       const std::vector<fs::path> own = own_files_in(folder, error);

@@ -119,11 +119,11 @@ TEST(LoadErrors, NotYaml) {
 
 TEST(LoadErrors, TooMuch) {
   EXPECT_THAT(load_error(std::string(300000, '#')), HasSubstr("300000 bytes; a scene has at most 262144"));
-  EXPECT_THAT(load_error("a: " + std::string(100, '[') + std::string(100, ']')), HasSubstr("more than 32 levels"));
-  EXPECT_THAT(load_error("a: " + std::string(100000, '[')), HasSubstr("x.yaml:1: "));
+  EXPECT_THAT(load_error(std::string("a: ").append(100, '[').append(100, ']')), HasSubstr("more than 32 levels"));
+  EXPECT_THAT(load_error(std::string("a: ").append(100000, '[')), HasSubstr("x.yaml:1: "));
   std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 12; ++i) {
-    const std::string before = "*a" + std::to_string(i - 1);
+    const std::string before = std::string("*a").append(std::to_string(i - 1));
     bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + before;
     for (int k = 0; k < 9; ++k) bomb += ", " + before;
     bomb += "]\n";

@@ -1,0 +1,60 @@
+#include "participant/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "base/error.hpp"
+#include "participant/positive_number.hpp"
+
+namespace grainstep::participant {
+namespace {
+
+void add_connect_options(CLI::App& app, ConnectOptions& options) {
+  app.add_option("--connect", options.endpoint, "Where the orchestrator listens: ipc:///path or tcp://host:port")
+      ->required();
+  app.add_option("--curve-dir", options.curve_dir, "Directory with participant.key and orchestrator.pub");
+  app.add_option("--connect-deadline", options.connect_deadline_s, "Seconds to wait for the orchestrator's answer")
+      ->check(positive_number())
+      ->capture_default_str();
+  app.add_flag("--allow-plain-tcp", options.allow_plain_tcp, "Unencrypted tcp beyond this host");
+}
+
+}  // namespace
+
+void Program::option(const std::string& name, const std::string& text, std::string& value,
+                     std::vector<std::string> choices) {
+  options_.push_back({.name = name, .text = text, .value = &value, .choices = std::move(choices)});
+}
+
+std::optional<int> Program::parse(int argc, const char* const* argv) {
+  CLI::App app(text_, name_);
+  add_connect_options(app, connect_);
+  for (Option& one : options_) {
+    CLI::Option* added = app.add_option("--" + one.name, *one.value, one.text);
+    if (!one.choices.empty()) added->check(CLI::IsMember(one.choices));
+  }
+  app.set_version_flag("--version", version_);
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+  }
+}
+
+int Program::run(const std::function<int(transport::Channel&)>& serve) const {
+  const auto failed = [this](ExitCode code, const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name_.c_str(), error.what());
+    return static_cast<int>(code);
+  };
+  try {
+    const auto channel = open(connect_);
+    return serve(*channel);
+  } catch (const InputError& error) {
+    return failed(ExitCode::bad_input, error);
+  } catch (const PeerError& error) {
+    return failed(ExitCode::peer, error);
+  }
+}
+
+}  // namespace grainstep::participant
