@@ -1,14 +1,14 @@
 #include "dem-service/impactor.hpp"
 
-#include <unistd.h>
-
-#include <fstream>
-#include <iterator>
+#include <utility>
 
 #include "base/assert.hpp"
 #include "base/error.hpp"
+#include "dem-service/deck/deck_engine.hpp"
 #include "dem-service/mpi_start.hpp"
+#include "dem-service/preview.hpp"
 #include "dem-service/slug_engine.hpp"
+#include "participant/hello.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -35,26 +35,18 @@ void give(Order order, std::string bytes, MPI_Comm communicator) {
   if (order != Order::leave) broadcast(bytes, communicator);
 }
 
-std::uint64_t resident_bytes() {
-  std::ifstream statm("/proc/self/statm");
-  std::uint64_t total = 0;
-  std::uint64_t resident = 0;
-  statm >> total >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
-std::uint64_t resident_bytes_of_all(MPI_Comm communicator) {
-  const std::uint64_t mine = resident_bytes();
-  std::uint64_t all = mine;
-  MPI_Reduce(&mine, &all, 1, MPI_UINT64_T, MPI_SUM, 0, communicator);
-  return all;
+std::unique_ptr<Engine> make_engine(const EngineOptions& options, const wire::Setup& setup) {
+  if (setup.impactor().impactor().type() == scene::Impactor::TYPE_DECK) {
+    return std::make_unique<DeckEngine>(options, setup);
+  }
+  return std::make_unique<SlugEngine>(options, setup);
 }
 
 class Impactor final : public participant::ImpactorBackend {
  public:
-  explicit Impactor(const EngineOptions& options) : options_(completed(options)) {}
+  explicit Impactor(EngineOptions options) : options_(std::move(options)) {}
   ~Impactor() override {
-    give(Order::leave, {}, options_.communicator);
+    if (options_.communicator != MPI_COMM_NULL) give(Order::leave, {}, options_.communicator);
     engine_.reset();
   }
   Impactor(const Impactor&) = delete;
@@ -63,31 +55,27 @@ class Impactor final : public participant::ImpactorBackend {
   Impactor& operator=(Impactor&&) = delete;
 
   [[nodiscard]] wire::Hello describe() const override {
-    wire::Hello hello;
-    hello.set_protocol(wire::PROTOCOL_VERSION);
-    hello.set_role(wire::IMPACTOR);
-    hello.set_backend("grainstep-dem (LAMMPS)");
-    hello.set_version(GRAINSTEP_VERSION);
-    hello.set_dimension(2);
-    hello.add_capabilities("slug");
-    hello.set_process(static_cast<std::uint64_t>(getpid()));
+    wire::Hello hello = participant::hello(wire::IMPACTOR, "grainstep-dem (LAMMPS)", GRAINSTEP_VERSION, {2});
+    for (const char* word : {"slug", "deck", "plane_strain", "axisymmetric", "size_distribution", "tension_cutoff"})
+      hello.add_capabilities(word);
     return hello;
   }
 
   [[nodiscard]] wire::Ready prepare(const wire::Setup& setup) override {
-    give(Order::prepare, setup.SerializeAsString(), options_.communicator);
-    engine_.reset();
-    engine_ = std::make_unique<SlugEngine>(options_, setup);
-    const SlugModel& model = engine_->model();
+    if (!setup.has_impactor()) throw InputError("setup: grainstep-dem is an impactor, but was sent a structure's part");
+    const scene::Impactor& impactor = setup.impactor().impactor();
+    const bool deck = impactor.type() == scene::Impactor::TYPE_DECK;
+    if (impactor.type() != scene::Impactor::TYPE_SLUG && !deck) {
+      throw InputError("impactor.type: grainstep-dem computes `slug` and `deck`, this scene has another one");
+    }
     wire::Ready ready;
+    if (setup.preview() && !deck) {  // what a script makes is known when it has been run
+      ready = preview(impactor, setup.symmetry(), setup.depth(), setup.mirror()).ready(setup.impactor().surface());
+    } else {
+      build(setup);
+      ready = engine_->ready();
+    }
     ready.set_scene_hash(setup.scene_hash());
-    ready.set_stable_step(model.stable_step);
-    ready.set_preferred_step(model.preferred_step);
-    ready.set_size(model.particles);
-    ready.set_mass(model.mass_of_all());
-    ready.set_contact_mass(model.whole() * model.mass_of(model.largest()));
-    ready.set_contact_time(model.contact_time);
-    ready.set_memory(resident_bytes_of_all(options_.communicator));
     return ready;
   }
 
@@ -98,8 +86,16 @@ class Impactor final : public participant::ImpactorBackend {
   }
 
  private:
+  // A preview of a slug needs no MPI, which takes longer to start than all the rest.
+  void build(const wire::Setup& setup) {
+    options_ = completed(options_);
+    give(Order::prepare, setup.SerializeAsString(), options_.communicator);
+    engine_.reset();
+    engine_ = make_engine(options_, setup);
+  }
+
   EngineOptions options_;
-  std::unique_ptr<SlugEngine> engine_;
+  std::unique_ptr<Engine> engine_;
 };
 
 template <typename Message>
@@ -120,7 +116,7 @@ std::unique_ptr<participant::ImpactorBackend> make_impactor(const EngineOptions&
 
 void follow(const EngineOptions& options) {
   const EngineOptions all = completed(options);
-  std::unique_ptr<SlugEngine> engine;
+  std::unique_ptr<Engine> engine;
   while (true) {
     int word = 0;
     MPI_Bcast(&word, 1, MPI_INT, 0, all.communicator);
@@ -129,8 +125,7 @@ void follow(const EngineOptions& options) {
       if (static_cast<Order>(word) == Order::prepare) {
         const auto setup = received<wire::Setup>(all.communicator);
         engine.reset();
-        engine = std::make_unique<SlugEngine>(all, setup);
-        resident_bytes_of_all(all.communicator);
+        engine = make_engine(all, setup);
       } else {
         engine->run(received<wire::Start>(all.communicator), nullptr);
       }

@@ -14,6 +14,7 @@ namespace grainstep::dem {
 struct EngineOptions {
   MPI_Comm communicator = MPI_COMM_NULL;  ///< null: this process alone; MPI is initialised where it is not yet
   std::string lammps_log;                 ///< file for LAMMPS's own log; empty: none
+  bool allow_deck = false;                ///< scripts may be run, which can do anything on this machine
 };
 
 /// For rank 0 of the communicator. The other ranks must be in follow() while this object lives.

@@ -20,6 +20,7 @@ format_args make_args_checked(const Text& text, const Args&... values);
 #include <lammps/error.h>
 #include <lammps/fix.h>
 #include <lammps/force.h>
+#include <lammps/input.h>
 #include <lammps/lammps.h>
 #include <lammps/memory.h>
 #include <lammps/modify.h>
@@ -107,6 +108,40 @@ template <class Style>
   GS_ASSERT(style != nullptr, "another pair style");
   return *style;
 }
+
+/// What a script has chosen.
+struct Facts {
+  double step = 0.0;  ///< s, where the units are SI
+  double skin = 0.0;  ///< m, likewise
+  int dimension = 3;
+  std::string units;
+  std::string pair_style;
+};
+[[nodiscard]] inline Facts facts_of(Instance& lammps) {
+  const char* pair = lammps.force->pair_style;
+  return {.step = lammps.update->dt,
+          .skin = lammps.neighbor->skin,
+          .dimension = lammps.domain->dimension,
+          .units = lammps.update->unit_style,
+          .pair_style = pair == nullptr ? "" : pair};
+}
+
+/// For as long as it lives, the command `run` throws Reached, through LAMMPS's reading of the script.
+class UntilRun {
+ public:
+  struct Reached {};
+
+  explicit UntilRun(Instance& lammps) : commands_(*lammps.input->command_map), before_(commands_["run"]) {
+    commands_["run"] = [](Instance*) -> LAMMPS_NS::Command* { throw Reached{}; };
+  }
+  ~UntilRun() { commands_["run"] = before_; }
+  UntilRun(const UntilRun&) = delete;
+  UntilRun& operator=(const UntilRun&) = delete;
+
+ private:
+  LAMMPS_NS::Input::CommandCreatorMap& commands_;
+  LAMMPS_NS::Input::CommandCreator before_;
+};
 
 /// A fix that carries data with every particle: LAMMPS calls its grow_arrays, copy_arrays and exchange functions.
 class ParticleFix : public LAMMPS_NS::Fix {

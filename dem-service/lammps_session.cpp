@@ -37,10 +37,28 @@ LammpsSession::LammpsSession(MPI_Comm communicator, const std::string& log) : co
 LammpsSession::~LammpsSession() { lammps_close(handle_); }
 
 void LammpsSession::command(const std::string& text) {
+  guarded("at `" + text + "`", [&] { lammps_command(handle_, text.c_str()); });
+}
+
+bool LammpsSession::run_script(const std::string& path) {
+  bool found = false;
+  guarded("in " + path, [&] {
+    const lammps::UntilRun until_run(lammps());
+    try {
+      lammps_file(handle_, path.c_str());
+    } catch (const lammps::UntilRun::Reached&) {
+      found = true;
+    }
+  });
+  return found;
+}
+
+template <typename Work>
+void LammpsSession::guarded(const std::string& where, Work&& work) {
   try {
-    lammps_command(handle_, text.c_str());
+    work();
   } catch (const LammpsFailure& failure) {
-    const std::string message = "LAMMPS, at `" + text + "`: " + failure.what();
+    const std::string message = "LAMMPS, " + where + ": " + failure.what();
     int ranks = 1;
     MPI_Comm_size(communicator_, &ranks);
     if (ranks > 1 && !failure.on_every_rank()) {

@@ -39,6 +39,9 @@ class LammpsSession {
   /// on one of several ranks alone, the others would wait for ever: the text goes to stderr and the MPI job is aborted.
   void command(const std::string& text);
 
+  /// Runs a script up to its first `run`, collectively; false where it has none. Throws as command() does.
+  [[nodiscard]] bool run_script(const std::string& path);
+
   /// Of particles of type 1; `identity` from 1.
   struct NewParticles {
     const std::vector<int>& identity;
@@ -51,6 +54,9 @@ class LammpsSession {
   [[nodiscard]] LAMMPS_NS::LAMMPS& lammps() { return *static_cast<LAMMPS_NS::LAMMPS*>(handle_); }
 
  private:
+  template <typename Work>
+  void guarded(const std::string& where, Work&& work);
+
   MPI_Comm communicator_;
   void* handle_;
 };

@@ -23,17 +23,21 @@ int main(int argc, char** argv) {
       "grainstep-dem: particles for Grainstep, computed by LAMMPS. Under mpirun all ranks share the slug.");
   grainstep::dem::EngineOptions options;
   program.option("lammps-log", "Write LAMMPS's own log to this file", options.lammps_log);
+  program.flag("allow-deck", "Run LAMMPS scripts (impactor.type: deck), which can do anything on this machine",
+               options.allow_deck);
   if (const auto code = program.parse(argc, argv)) return *code;
-  grainstep::dem::start_mpi();
-  options.communicator = MPI_COMM_WORLD;
   int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (!grainstep::dem::is_alone()) {
+    grainstep::dem::start_mpi();
+    options.communicator = MPI_COMM_WORLD;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  }
   int code = static_cast<int>(grainstep::ExitCode::done);
   if (rank == 0) {
     code = serve(program, options);
   } else {
     grainstep::dem::follow(options);
   }
-  MPI_Finalize();
+  grainstep::dem::end_mpi();
   return code;
 }

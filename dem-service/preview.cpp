@@ -1,9 +1,16 @@
 #include "dem-service/preview.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "base/number_text.hpp"
+#include "contact/moving_surface.hpp"
 #include "dem-service/slug_model.hpp"
+#include "participant/hello.hpp"
+#include "surface/disc_overlap.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -39,6 +46,17 @@ double length_of_list(const SlugModel& model) {
   return std::pow(0.5 * (1.0 + model.sizes.largest()), k) / model.sizes.mean_of_power(k);
 }
 
+/// What a dent under one particle depends on, if its force acts at a point (docs/theory/contact.md).
+std::optional<std::string> warning_of_dents(const SlugPreview& slug, const wire::Surface& surface) {
+  if (!slug.point_contact || surface.facet().empty()) return std::nullopt;
+  const double elements = slug.largest / mean_length(contact::MovingSurface(surface).now());
+  if (!(elements > widest_point_contact)) return std::nullopt;
+  return "impactor.slug.surface_contact.spreading: point: a particle is as wide as " + rounded_text(elements) +
+         " elements of the surface, and the dent under it will follow the mesh, with its plastic work and the rebound. "
+         "Write chord (auto takes it from " +
+         rounded_text(widest_point_contact) + " on), or a coarser mesh";
+}
+
 }  // namespace
 
 SlugPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, double depth, bool mirror) {
@@ -59,7 +77,32 @@ SlugPreview preview(const scene::Impactor& impactor, scene::Symmetry symmetry, d
   preview.memory_bytes =
       bytes_of_program + (model.spheres() ? bytes_per_sphere : bytes_per_particle) * model.particles + lists;
   preview.seconds_per_particle_step = seconds_of_dynamics(model) + more * seconds_of_list;
+  preview.point_contact = impactor.slug().surface_contact().spreading() == scene::SurfaceContact::SPREADING_POINT;
   return preview;
+}
+
+wire::Ready SlugPreview::ready(const wire::Surface& surface) const {
+  wire::Ready out;
+  out.set_size(particles);
+  out.set_counted("particles");
+  out.set_ledger(wire::FULL);
+  out.set_mass(mass);
+  out.set_contact_mass(contact_mass);
+  out.set_contact_time(contact_time);
+  out.set_stable_step(stable_step);
+  out.set_preferred_step(preferred_step);
+  out.set_memory(memory_bytes);
+  out.set_rank_memory(process_bytes);
+  out.set_seconds_per_step(static_cast<double>(particles) * seconds_per_particle_step);
+  out.set_largest_particle(largest);
+  participant::add_fact(
+      out, "particles",
+      fmt::format("{}, stable step {:.4g} s, contact time {:.4g} s", particles, stable_step, contact_time));
+  if (largest > smallest) {
+    participant::add_fact(out, "diameters", fmt::format("{:.4g} to {:.4g} mm", 1e3 * smallest, 1e3 * largest));
+  }
+  if (const auto warning = warning_of_dents(*this, surface)) out.add_warning(*warning);
+  return out;
 }
 
 }  // namespace grainstep::dem

@@ -1,9 +1,11 @@
-/// @file What a slug will cost and how it will step, before anything is started (`grainstep check`). No LAMMPS, no MPI.
+/// @file What a slug will cost and how it will step: what a participant says before a run is started. No LAMMPS, no
+/// MPI.
 #pragma once
 
 #include <cstdint>
 
 #include "grainstep/scene.pb.h"
+#include "grainstep/wire.pb.h"
 
 namespace grainstep::dem {
 
@@ -19,6 +21,10 @@ struct SlugPreview {
   std::uint64_t memory_bytes = 0;   ///< estimate
   std::uint64_t process_bytes = 0;  ///< the part of it that every rank takes
   double seconds_per_particle_step = 0.0;  ///< estimate, one core
+  bool point_contact = false;              ///< the scene asks for it
+
+  /// The same as the message; without the scene. `surface`: what will be hit; empty where that is not known.
+  [[nodiscard]] wire::Ready ready(const wire::Surface& surface) const;
 };
 
 /// Throws InputError for what this impactor cannot compute, e.g. a solid fraction above what its packing reaches.

@@ -6,9 +6,10 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "dem-service/attach.hpp"
 #include "dem-service/lammps_adapter.hpp"
 #include "dem-service/pair/style.hpp"
-#include "dem-service/surface_fix.hpp"
+#include "dem-service/preview.hpp"
 #include "surface/disc_overlap.hpp"
 
 namespace grainstep::dem {
@@ -46,7 +47,8 @@ SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup,
     : model_(model_of(setup)),
       communicator_(options.communicator),
       session_(options.communicator, options.lammps_log),
-      setup_(setup.impactor()) {
+      setup_(setup.impactor()),
+      ready_(preview(setup_.impactor(), setup.symmetry(), setup.depth(), setup.mirror()).ready(setup_.surface())) {
   model_.particles = particles.size();
   create_particles(particles);
 }
@@ -110,28 +112,16 @@ void SlugEngine::set_laws(const ContactLaw& pair, double dt, double skin) {
 }
 
 void SlugEngine::run(const wire::Start& start, participant::ImpactorLink* link) {
-  const std::uint64_t steps = start.windows() * start.impactor_steps();
-  if (start.first_window() != 0) throw InputError("grainstep-dem cannot continue a run: Start.first_window must be 0");
-  if (!(start.window() > 0.0) || start.impactor_steps() == 0) {
-    throw InputError("Start: window and impactor_steps must be above 0");
-  }
-  if (steps > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
-    throw InputError("time.end: " + std::to_string(steps) + " steps, but LAMMPS counts up to 2^31: end earlier");
-  }
+  require_drivable(start);
   const double dt = start.window() / start.impactor_steps();
   const double skin = skin_in_diameters * model_.diameter;
-  const ContactLaw pair = calibrated_pair_law(model_, dt);
-  set_laws(pair, dt, skin);
-
-  const StepSettings settings{dt, skin / 2.0};
-  MovingSurface surface(setup_.surface());
-  RankExchange exchange(communicator_, link, surface.node_count());
-  StepDriver driver(model_, start, settings, std::move(surface), exchange);
-  lammps::register_fix<SurfaceFix>(session_.lammps());
-  session_.command("fix surface all grainstep/surface");
-  lammps::find_fix<SurfaceFix>(session_.lammps(), "surface").connect(driver, exchange);
-  session_.command(text_of("run %llu post no", static_cast<unsigned long long>(steps)));
-  exchange.finish();
+  set_laws(calibrated_pair_law(model_, dt), dt, skin);
+  drive({.session = session_,
+         .communicator = communicator_,
+         .model = model_,
+         .surface = setup_.surface(),
+         .settings = {dt, skin / 2.0}},
+        start, link);
 }
 
 }  // namespace grainstep::dem

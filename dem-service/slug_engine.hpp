@@ -1,13 +1,14 @@
 /// @file A slug inside LAMMPS: particles created, laws set, all windows run. Everything here is collective.
 #pragma once
 
+#include "dem-service/engine.hpp"
 #include "dem-service/impactor.hpp"
 #include "dem-service/lammps_session.hpp"
 #include "dem-service/slug_layout.hpp"
 
 namespace grainstep::dem {
 
-class SlugEngine {
+class SlugEngine final : public Engine {
  public:
   /// Packs the slug and creates its particles, standing on the surface or off it as the scene says. Throws InputError.
   SlugEngine(const EngineOptions& options, const wire::Setup& setup);
@@ -17,9 +18,8 @@ class SlugEngine {
 
   [[nodiscard]] const SlugModel& model() const { return model_; }
 
-  /// Runs all windows. `link`: rank 0's, nullptr elsewhere. Throws InputError, NumericalError or what the link throws;
-  /// on the other ranks only what LAMMPS itself finds.
-  void run(const wire::Start& start, participant::ImpactorLink* link);
+  [[nodiscard]] wire::Ready ready() const override { return ready_; }
+  void run(const wire::Start& start, participant::ImpactorLink* link) override;
 
  private:
   void create_particles(const std::vector<PlacedParticle>& particles);
@@ -29,6 +29,7 @@ class SlugEngine {
   MPI_Comm communicator_;
   LammpsSession session_;
   wire::ImpactorSetup setup_;
+  wire::Ready ready_;
 };
 
 }  // namespace grainstep::dem

@@ -197,9 +197,13 @@ SlugModel make_slug_model(const scene::Impactor& impactor, scene::Symmetry symme
   return model;
 }
 
+double SlugModel::lightest_mass() const { return heaviest > 0.0 ? on_surface.effective_mass : mass_of(smallest()); }
+
+double SlugModel::heaviest_mass() const { return heaviest > 0.0 ? heaviest : mass_of(largest()); }
+
 void meet(SlugModel& model, const scene::SurfaceContact& contact, double free_mass, double facet) {
   model.free_mass = free_mass / model.whole();
-  model.on_surface.effective_mass = contact::reduced_mass(model.mass_of(model.smallest()), model.free_mass);
+  model.on_surface.effective_mass = contact::reduced_mass(model.lightest_mass(), model.free_mass);
   using Contact = scene::SurfaceContact;
   const bool fine = model.largest() > widest_point_contact * facet;
   model.chord =
@@ -225,7 +229,7 @@ ContactLaw calibrated_pair_law(const SlugModel& model, double dt) {
 }
 
 ContactLaw calibrated_surface_law(const SlugModel& model, double dt) {
-  const double heaviest = contact::reduced_mass(model.mass_of(model.largest()), model.free_mass);
+  const double heaviest = contact::reduced_mass(model.heaviest_mass(), model.free_mass);
   return calibrated(model.surface_law, model, model.on_surface, heaviest, dt);
 }
 

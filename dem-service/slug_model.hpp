@@ -33,6 +33,8 @@ struct SlugModel {
   double density = 0.0;   ///< kg/m^2, rho_s b of discs; kg/m^3, rho_s of spheres
   double mass = 0.0;      ///< kg, mean of one particle
   std::uint64_t particles = 0;
+  bool fixed_number = true;  ///< none may be lost, and none comes
+  double heaviest = 0.0;     ///< kg, of particles whose mass does not follow from their size; 0: it does
 
   ContactLaw pair_law;           ///< damping is left open: it depends on the step
   ContactLaw surface_law;        ///< likewise
@@ -51,6 +53,8 @@ struct SlugModel {
   [[nodiscard]] double largest() const { return sizes.largest() * diameter; }    ///< m, diameter
   /// kg, of a particle of this diameter: rho_s b pi D^2/4 or rho_s pi D^3/6.
   [[nodiscard]] double mass_of(double of_diameter) const;
+  [[nodiscard]] double lightest_mass() const;  ///< kg
+  [[nodiscard]] double heaviest_mass() const;  ///< kg
   /// By what sizes are scaled for the slug's exact mass, because the number of particles is whole; 1 if all are equal.
   [[nodiscard]] double scale_of_sizes() const;
   /// What is modelled of the whole: sums over a slice's particles times this are those of the full circle.

@@ -179,7 +179,8 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
   message.set_window(window);
   fill_report(model_, all, most, message);
   message.mutable_timing()->set_steps(step);
-  if (!std::isfinite(all.kinetic) || all.particles != static_cast<double>(model_.particles)) {
+  const bool lost = model_.fixed_number && all.particles != static_cast<double>(model_.particles);
+  if (!std::isfinite(all.kinetic) || lost) {
     std::ostringstream text;
     text << "after " << step << " steps " << all.particles << " of " << model_.particles
          << " particles are left, with a kinetic energy of " << all.kinetic

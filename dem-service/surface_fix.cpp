@@ -19,9 +19,11 @@ SurfaceFix::SurfaceFix(lammps::Instance* lammps, int argument_count, char** argu
   follow_particles();
 }
 
-void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange) {
+void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange, bool own_pair_style) {
   driver_ = &driver;
   exchange_ = &exchange;
+  own_pair_style_ = own_pair_style;
+  first_step_ = step();
 }
 
 int SurfaceFix::setmask() {
@@ -59,11 +61,11 @@ void SurfaceFix::post_neighbor() {
 }
 
 void SurfaceFix::pre_force(int /*flags*/) {
-  guarded([&] { driver_->before_pair_forces(step(), arrays()); });
+  guarded([&] { driver_->before_pair_forces(step() - first_step_, arrays()); });
 }
 
 void SurfaceFix::post_force(int /*flags*/) {
-  guarded([&] { driver_->after_pair_forces(step(), arrays()); });
+  guarded([&] { driver_->after_pair_forces(step() - first_step_, arrays()); });
 }
 
 void SurfaceFix::setup(int flags) {
@@ -72,7 +74,10 @@ void SurfaceFix::setup(int flags) {
 }
 
 void SurfaceFix::end_of_step() {
-  guarded([&] { driver_->end_of_step(step(), arrays(), lammps::find_pair<PairStyle>(instance()).energy()); });
+  guarded([&] {
+    const PairEnergy pairs = own_pair_style_ ? lammps::find_pair<PairStyle>(instance()).energy() : PairEnergy{};
+    driver_->end_of_step(step() - first_step_, arrays(), pairs);
+  });
 }
 
 void SurfaceFix::grow_arrays(int capacity) { springs_.resize(static_cast<std::size_t>(capacity)); }

@@ -16,8 +16,8 @@ class SurfaceFix : public lammps::ParticleFix {
 
   SurfaceFix(lammps::Instance* lammps, int argument_count, char** arguments);
 
-  /// Both outlive the run.
-  void connect(StepDriver& driver, RankExchange& exchange);
+  /// Both outlive the run. `own_pair_style`: there are energies of contacts between particles to report.
+  void connect(StepDriver& driver, RankExchange& exchange, bool own_pair_style);
 
   int setmask() override;
 
@@ -44,6 +44,8 @@ class SurfaceFix : public lammps::ParticleFix {
 
   StepDriver* driver_ = nullptr;
   RankExchange* exchange_ = nullptr;
+  bool own_pair_style_ = true;
+  std::uint64_t first_step_ = 0;  ///< LAMMPS's count at the start; a script may have set one of its own
   std::vector<surface::Vec3> springs_;
 };
 

@@ -41,14 +41,15 @@ void Deformable::fill_ready(wire::Ready& ready) const {
   ready.set_contact_mass(body_.corners.mass[body_.mesh().corner(body_.mesh().middle_of_face())]);
   ready.set_memory(body_.memory_bytes());
   wire::Surface& surface = *ready.mutable_surface();
+  surface.set_dimension(2);
   for (std::size_t k = 0; k < surface_.size(); ++k) {
     surface.add_position(body_.corners.x[surface_[k]]);
     surface.add_position(body_.corners.y[surface_[k]]);
     surface.add_velocity(body_.corners.u[surface_[k]]);
     surface.add_velocity(body_.corners.v[surface_[k]]);
     if (k == 0) continue;
-    surface.add_segment(static_cast<std::uint32_t>(k - 1));
-    surface.add_segment(static_cast<std::uint32_t>(k));
+    surface.add_facet(static_cast<std::uint32_t>(k - 1));
+    surface.add_facet(static_cast<std::uint32_t>(k));
   }
 }
 

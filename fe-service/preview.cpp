@@ -1,5 +1,7 @@
 #include "fe-service/preview.hpp"
 
+#include <fmt/format.h>
+
 #include "base/error.hpp"
 #include "fe-service/body.hpp"
 #include "fe-service/deformable.hpp"
@@ -7,6 +9,7 @@
 #include "fe-service/layers.hpp"
 #include "fe-service/rigid.hpp"
 #include "fe-service/solid.hpp"
+#include "participant/hello.hpp"
 
 namespace grainstep::fe {
 
@@ -52,7 +55,22 @@ void preview_beam(const Mesh& mesh, const std::vector<Material>& layers, const M
   body.resist_volume(bulk);
   found.stable_step = body.stable_step();
   // The only column's two surface nodes have one triangle's neighbourhood each; inside the surface nodes have both.
-  for (const Corner c : body.mesh().surface()) found.contact_mass += body.corners.mass[body.mesh().corner(c)];
+  for (const int end : {0, 1}) found.contact_mass += body.corners.mass[body.mesh().corner({0, end})];
+}
+
+void fill_surface(const Mesh& mesh, wire::Surface& surface) {
+  surface.set_dimension(2);
+  std::uint32_t node = 0;
+  for (const Corner corner : mesh.surface()) {
+    surface.add_position(mesh.corner_x(corner.column));
+    surface.add_position(mesh.level[static_cast<std::size_t>(corner.row)]);
+    for (int c = 0; c < 2; ++c) surface.add_velocity(0.0);
+    if (node > 0) {
+      surface.add_facet(node - 1);
+      surface.add_facet(node);
+    }
+    ++node;
+  }
 }
 
 void preview_deformable(const scene::Structure& structure, const Measure& measure, StructurePreview& found) {
@@ -62,6 +80,7 @@ void preview_deformable(const scene::Structure& structure, const Measure& measur
   found.nodes = mesh.nodes();
   found.element_size = mesh.width;
   found.memory_bytes = memory_bytes(mesh, layers);
+  fill_surface(mesh, found.surface);
   if (is_of_revolution(measure)) {
     preview_plate(mesh, layers, bulk_factors(structure), found);
   } else {
@@ -71,7 +90,47 @@ void preview_deformable(const scene::Structure& structure, const Measure& measur
   found.seconds_per_element_step = seconds_per_element_step(mesh, layers);
 }
 
+/// What both kinds of bodies say alike.
+void describe_elements(wire::Ready& ready, std::uint64_t elements, double seconds_per_element_step) {
+  ready.set_size(elements);
+  ready.set_counted("elements");
+  ready.set_ledger(wire::FULL);
+  ready.set_seconds_per_step(static_cast<double>(elements) * seconds_per_element_step);
+}
+
 }  // namespace
+
+wire::Ready StructurePreview::ready() const {
+  wire::Ready out;
+  describe_elements(out, elements, seconds_per_element_step);
+  out.set_stable_step(stable_step);
+  out.set_preferred_step(preferred_step);
+  out.set_contact_mass(contact_mass);
+  out.set_free_mass(free_mass);
+  out.set_memory(memory_bytes);
+  *out.mutable_surface() = surface;
+  if (elements == 0) {
+    participant::add_fact(out, "elements", "0: a rigid target, which has no step of its own");
+  } else {
+    participant::add_fact(
+        out, "elements",
+        fmt::format("{}, stable step {:.4g} s, element size {:.4g} m", elements, stable_step, element_size));
+  }
+  return out;
+}
+
+wire::Ready FoamPreview::ready() const {
+  wire::Ready out;
+  describe_elements(out, elements, seconds_per_element_step);
+  out.set_stable_step(stable_step);
+  out.set_preferred_step(preferred_step);
+  out.set_contact_mass(contact_mass);
+  out.set_contact_time(contact_time);
+  out.set_longest_window(longest_window);
+  out.set_memory(memory_bytes);
+  participant::add_fact(out, "foam elements", fmt::format("{}, stable step {:.4g} s", elements, stable_step));
+  return out;
+}
 
 StructurePreview preview(const scene::Structure& structure, scene::Symmetry symmetry, double depth) {
   const Measure measure = make_measure(symmetry, depth);
@@ -85,6 +144,7 @@ StructurePreview preview(const scene::Structure& structure, scene::Symmetry symm
     found.stable_step = ready.stable_step();
     found.preferred_step = ready.preferred_step();
     found.free_mass = ready.free_mass();
+    found.surface = ready.surface();
   } else {
     preview_deformable(structure, measure, found);
   }

@@ -1,10 +1,11 @@
-/// @file What a structure would be, without building it: for `grainstep check`.
+/// @file What a structure would be, without building it: what a participant says before a run is started.
 #pragma once
 
 #include <cstdint>
 
 #include "fe-service/foam/model.hpp"
 #include "grainstep/scene.pb.h"
+#include "grainstep/wire.pb.h"
 
 namespace grainstep::fe {
 
@@ -19,6 +20,10 @@ struct StructurePreview {
   double free_mass = 0.0;       ///< kg, of a free rigid target, else 0
   std::uint64_t memory_bytes = 0;
   double seconds_per_element_step = 0.0;  ///< an estimate from bench_fe_kernel (docs/decisions/0003-element-loop.md)
+  wire::Surface surface;                  ///< at rest
+
+  /// The same as the message; without mass and scene.
+  [[nodiscard]] wire::Ready ready() const;
 };
 
 struct FoamPreview {
@@ -30,6 +35,8 @@ struct FoamPreview {
   double longest_window = 0.0;  ///< s
   std::uint64_t memory_bytes = 0;
   double seconds_per_element_step = 0.0;
+
+  [[nodiscard]] wire::Ready ready() const;
 };
 
 /// Throws InputError for a foam projectile that grainstep-fe cannot compute.

@@ -55,10 +55,11 @@ void Rigid::fill_ready(wire::Ready& ready) const {
   ready.set_mass(mass_);
   if (free_) ready.set_free_mass(mass_);
   wire::Surface& surface = *ready.mutable_surface();
+  surface.set_dimension(2);
   fill_nodes(*surface.mutable_position(), *surface.mutable_velocity(), velocity_);
   for (std::uint32_t k = 1; k < outline_.size(); ++k) {
-    surface.add_segment(k - 1);
-    surface.add_segment(k);
+    surface.add_facet(k - 1);
+    surface.add_facet(k);
   }
 }
 

@@ -1,31 +1,33 @@
 #include "fe-service/structure.hpp"
 
-#include <unistd.h>
-
 #include "base/assert.hpp"
+#include "base/error.hpp"
 #include "fe-service/kernel/kernel.hpp"
 #include "fe-service/materials/material.hpp"
+#include "fe-service/preview.hpp"
+#include "participant/hello.hpp"
 
 namespace grainstep::fe {
 
 wire::Hello Structure::describe() const {
-  wire::Hello hello;
-  hello.set_protocol(wire::PROTOCOL_VERSION);
-  hello.set_role(wire::STRUCTURE);
-  hello.set_backend(std::string("grainstep-fe (") + available_kernels().front()->name + ")");
-  hello.set_version(GRAINSTEP_VERSION);
-  hello.set_dimension(2);
-  for (const char* capability : {"beam", "plate", "rigid", "plane_strain", "axisymmetric"})
+  wire::Hello hello = participant::hello(
+      wire::STRUCTURE, std::string("grainstep-fe (") + available_kernels().front()->name + ")", GRAINSTEP_VERSION, {2});
+  for (const char* capability :
+       {"beam", "plate", "rigid", "plane_strain", "axisymmetric", "initial_velocity", "bulk_viscosity"})
     hello.add_capabilities(capability);
   for (const std::string& material : layer_words()) hello.add_capabilities(material);
-  hello.set_process(static_cast<std::uint64_t>(getpid()));
   return hello;
 }
 
+// What a preview finds is what check_measure() and the mesh would refuse in a run as well, before memory is taken.
 wire::Ready Structure::prepare(const wire::Setup& setup) {
-  structure_ = make_structure(setup);
-  wire::Ready ready;
+  if (!setup.has_structure()) throw InputError("setup: grainstep-fe is a structure, but was sent an impactor's part");
+  const StructurePreview found = preview(setup.structure().structure(), setup.symmetry(), setup.depth());
+  wire::Ready ready = found.ready();
   ready.set_scene_hash(setup.scene_hash());
+  if (setup.preview()) return ready;
+  structure_ = make_structure(setup);
+  ready.clear_surface();
   structure_->fill_ready(ready);
   return ready;
 }

@@ -34,29 +34,10 @@ void print_plan(const StepPlan& plan) {
   std::printf("windows                  %llu\n", static_cast<unsigned long long>(plan.windows));
 }
 
-void print_sides(const Preparation& p) {
-  if (p.impactor && p.impactor->elements > 0) {
-    std::printf("foam elements            %llu, stable step %.4g s\n",
-                static_cast<unsigned long long>(p.impactor->elements), p.impactor->stable_step);
-  } else if (p.impactor && p.impactor->particles == 0) {
-    std::printf("particles                0: a prescribed load, which has no step of its own\n");
-  } else if (p.impactor) {
-    std::printf("particles                %llu, stable step %.4g s, contact time %.4g s\n",
-                static_cast<unsigned long long>(p.impactor->particles), p.impactor->stable_step,
-                p.impactor->contact_time);
-    if (p.impactor->largest > p.impactor->smallest) {
-      std::printf("diameters                %.4g to %.4g mm\n", 1e3 * p.impactor->smallest, 1e3 * p.impactor->largest);
-    }
-  } else {
-    std::printf("particles                known to the external impactor\n");
-  }
-  if (p.structure) {
-    std::printf("elements                 %llu, stable step %.4g s, element size %.4g m\n",
-                static_cast<unsigned long long>(p.structure->elements), p.structure->stable_step,
-                p.structure->element_size);
-  } else {
-    std::printf("elements                 known to the external structure\n");
-  }
+void print_side(const std::optional<wire::Ready>& side, const char* name) {
+  if (!side) std::printf("%-24s external: it will say itself what it is\n", name);
+  if (!side) return;
+  for (const wire::Fact& fact : side->fact()) std::printf("%-24s %s\n", fact.name().c_str(), fact.text().c_str());
 }
 
 // Ranks share particles evenly where the slug is tall; what they lose to each other is measured in bench/README.md.
@@ -66,11 +47,11 @@ void print_cost(const Preparation& p, int ranks) {
     return;
   }
   const double memory =
-      (static_cast<double>(p.impactor->memory_bytes) + (ranks - 1) * static_cast<double>(p.impactor->process_bytes)) /
+      (static_cast<double>(p.impactor->memory()) + (ranks - 1) * static_cast<double>(p.impactor->rank_memory())) /
       mebibyte;
   std::printf("memory                   %.0f MiB impactor", memory);
   if (ranks > 1) std::printf(" (%.0f MiB each of %d ranks)", memory / ranks, ranks);
-  std::printf(", %.0f MiB structure\n", static_cast<double>(p.structure->memory_bytes) / mebibyte);
+  std::printf(", %.0f MiB structure\n", static_cast<double>(p.structure->memory()) / mebibyte);
   std::printf("estimated time           %s impactor%s, %s structure, at the same time on a core each\n",
               duration_text(cost->impactor / ranks).c_str(),
               ranks > 1 ? (" (" + std::to_string(ranks) + " ranks at their best)").c_str() : "",
@@ -78,9 +59,9 @@ void print_cost(const Preparation& p, int ranks) {
 }
 
 // For this scene: its size and duration may be other ones than the measured.
-std::string time_text(const scene::Scene& scene) {
+std::string time_text(const scene::Scene& scene, const RunOptions& options) {
   try {
-    const auto cost = cost_of(prepare(scene, {}));
+    const auto cost = cost_of(prepare(scene, options));
     const double seconds = cost ? std::max(cost->impactor, cost->structure) : 0.0;
     return seconds < 1.0 ? "about a second" : "about " + duration_text(seconds);
   } catch (const InputError&) {  // too few particles for this slug, too coarse a mesh for this beam
@@ -88,7 +69,7 @@ std::string time_text(const scene::Scene& scene) {
   }
 }
 
-void print_recommendation(double percent, const scene::Scene& scene) {
+void print_recommendation(double percent, const scene::Scene& scene, const RunOptions& options) {
   const Fidelity* one = cheapest_within(percent, measured_fidelities());
   if (one == nullptr) {
     return;
@@ -96,10 +77,10 @@ void print_recommendation(double percent, const scene::Scene& scene) {
   const scene::Scene better = at_fidelity(scene, *one);
   std::printf("for errors below %3.2g%%    D = %.3g mm, mesh h/%g (a/D = %g, measured %.2g%%): %s\n", percent,
               1e3 * better.impactor().slug().particle().diameter(), one->refinement, one->particles_across,
-              one->error_deflection, time_text(better).c_str());
+              one->error_deflection, time_text(better, options).c_str());
 }
 
-void print_fidelity(const scene::Scene& scene) {
+void print_fidelity(const scene::Scene& scene, const RunOptions& options) {
   if (!is_like_the_measured(scene)) {
     const bool plate = scene.symmetry() == scene::SYMMETRY_AXISYMMETRIC;
     std::printf(
@@ -118,7 +99,7 @@ void print_fidelity(const scene::Scene& scene) {
         one->error_deflection, one->error_impulse, one->error_pressure, one->name.c_str());
   }
   for (const double percent : {2.0, 1.0, 0.5}) {
-    print_recommendation(percent, scene);
+    print_recommendation(percent, scene, options);
   }
 }
 
@@ -128,17 +109,21 @@ void check(const CheckOptions& options) {
   RunOptions run;
   run.scene = options.scene;
   run.ranks = options.ranks;
+  run.allow_program = options.allow_program;
+  run.allow_deck = options.allow_deck;
+  run.deadlines = options.deadlines;
   const Preparation p = prepare(run);
   print_warnings(p);
   std::printf("%s\n", p.scene.title().empty() ? options.scene.scene.c_str() : p.scene.title().c_str());
   print_groups(p.groups);
-  print_sides(p);
+  print_side(p.impactor, "impactor");
+  print_side(p.structure, "structure");
   if (p.plan) {
     print_plan(*p.plan);
   }
   print_cost(p, options.ranks);
   require_memory(p, options.ranks, memory_of_machine());
-  print_fidelity(p.scene);
+  print_fidelity(p.scene, run);
 }
 
 }  // namespace grainstep::orchestrator

@@ -64,14 +64,16 @@ class Run {
     session_.introduce();
     plan_ = session_.prepare();
     if (!p.plan) print_warnings(*plan_);  // an external side has told its steps only now
-    const double mass = hub_.impactor().ready.mass();
-    if (has_particles(p.scene) && mass > 0.0) groups_ = scene::groups(p.scene, mass);
+    const wire::Ready& impactor = hub_.impactor().ready;
+    const wire::Ready& structure = hub_.structure().ready;
+    if (is_of_particles(impactor)) groups_ = scene::groups(p.scene, impactor.mass());
     progress_.emplace(stdout, how_.progress, Progress::Scale{plan_->windows, plan_->window, groups_.reference_time});
     recorder_.emplace(Recorder::Context{.scene = p.scene,
                                         .groups = groups_,
                                         .plan = *plan_,
-                                        .surface = hub_.structure().ready.surface(),
-                                        .masses = {hub_.impactor().ready.mass(), hub_.structure().ready.mass()}},
+                                        .surface = structure.surface(),
+                                        .masses = {impactor.mass(), structure.mass()},
+                                        .levels = {impactor.ledger(), structure.ledger()}},
                       how_.directory, *file_, [this](std::uint64_t window) { progress_->tick(window); });
     background_.emplace(*recorder_);
     session_.run(*plan_, *background_);

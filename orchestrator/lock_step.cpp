@@ -30,9 +30,12 @@ LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, d
       observer_(observer),
       start_(start),
       silence_s_(silence_s),
+      dimension_(std::max(1U, hub.structure().ready.surface().dimension())),
       values_(hub.structure().ready.surface().position_size()),
       position_(hub.structure().ready.surface().position().begin(), hub.structure().ready.surface().position().end()),
-      next_forces_(start.first_window()) {
+      next_forces_(start.first_window()),
+      impactor_{.check = ReportCheck(dimension_)},
+      structure_{.check = ReportCheck(dimension_)} {
   for (const double x : position_) size_ = std::max(size_, std::abs(x));
   for (Extra* side : {&impactor_, &structure_}) {
     const std::uint64_t first = start.first_window();
@@ -155,7 +158,8 @@ void LockStep::require_motion(const Peer& structure) {
     const double told = kinematics_.velocity(i) * start_.window();
     if (std::abs(way - told) > of_the_way * std::abs(told) + of_the_size * size_) {
       std::ostringstream text;
-      text << "Kinematics of window " << next_forces_ << ": coordinate " << i % 2 + 1 << " of node " << i / 2
+      const int n = static_cast<int>(dimension_);
+      text << "Kinematics of window " << next_forces_ << ": coordinate " << i % n + 1 << " of node " << i / n
            << " moved by " << way << " m, but the velocity sent with it times the window makes " << told
            << " m. Send the mean velocity of the window that has ended, and its position at the end.";
       throw PeerError(structure.name(), text.str());
@@ -183,6 +187,7 @@ void LockStep::on_report(Peer& peer, const wire::Frame& frame) {
     throw NumericalError(peer.name() + ": report of window " + std::to_string(report_.window()) + ": " + *found +
                          ". The computation has become unstable: try smaller steps.");
   }
+  side.check.report(peer, report_);
   side.last_report = side.next_report == start_.windows();
   side.next_report = next_due(side.next_report, true);
   peer.timing = report_.timing();
@@ -196,6 +201,7 @@ void LockStep::on_snapshot(Peer& peer, const wire::Frame& frame) {
   }
   wire::Snapshot snapshot;
   peer.messages.take(frame, snapshot, side.next_snapshot);
+  side.check.snapshot(peer, snapshot);
   side.next_snapshot = next_due(side.next_snapshot, false);
   side.last_snapshot = side.next_snapshot > start_.windows();
   observer_.snapshot(peer.role, std::move(snapshot));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "orchestrator/check_report.hpp"
 #include "orchestrator/hub.hpp"
 #include "orchestrator/step_observer.hpp"
 
@@ -42,6 +43,7 @@ class LockStep {
     std::uint64_t next_snapshot = 0;
     bool last_report = false;
     bool last_snapshot = false;
+    ReportCheck check;
   };
   Extra& extra(const Peer& peer) { return peer.role == wire::IMPACTOR ? impactor_ : structure_; }
   [[nodiscard]] std::uint64_t next_due(std::uint64_t window, bool report) const;
@@ -50,6 +52,7 @@ class LockStep {
   StepObserver& observer_;
   wire::Start start_;
   double silence_s_;
+  unsigned dimension_;
   int values_;                    // nodes x dimension of the surface
   std::vector<double> position_;  // m, of the surface at the last exchange
   double size_ = 0.0;             // m, its largest coordinate

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "orchestrator/check_command.hpp"
+#include "orchestrator/conformance/conformance_command.hpp"
 #include "orchestrator/options.hpp"
 #include "orchestrator/run_command.hpp"
 #include "orchestrator/show_command.hpp"
@@ -21,6 +22,9 @@ int act(const grainstep::orchestrator::CommandLine& line) {
   }
   if (line.study) {
     return grainstep::study::study(*line.study);
+  }
+  if (line.conformance) {
+    return grainstep::conformance::conformance(*line.conformance);
   }
   if (line.check) {
     grainstep::orchestrator::check(*line.check);

@@ -33,15 +33,21 @@ std::optional<std::uint64_t> limit_of_group(const std::filesystem::path& groups)
   return std::nullopt;
 }
 
+/// What a side's snapshots take beside it; particles' are counted in what they say themselves.
+std::uint64_t memory_of_snapshots(const wire::Ready& side) {
+  return side.counted() == "elements" ? snapshot_bytes * side.size() : 0;
+}
+
 }  // namespace
 
 std::uint64_t memory_of(const Preparation& p, int ranks) {
   std::uint64_t bytes = 0;
-  if (p.impactor) bytes += p.impactor->memory_bytes + static_cast<std::uint64_t>(ranks - 1) * p.impactor->process_bytes;
-  if (p.structure) bytes += p.structure->memory_bytes;
+  if (p.impactor) bytes += p.impactor->memory() + static_cast<std::uint64_t>(ranks - 1) * p.impactor->rank_memory();
+  if (p.structure) bytes += p.structure->memory();
   if (p.scene.output().snapshots() == 0) return bytes;
-  if (p.impactor) bytes += snapshot_bytes * p.impactor->elements;
-  if (p.structure) bytes += snapshot_bytes * p.structure->elements;
+  for (const auto* side : {&p.impactor, &p.structure}) {
+    if (*side) bytes += memory_of_snapshots(**side);
+  }
   return bytes;
 }
 
@@ -57,11 +63,12 @@ std::optional<std::uint64_t> memory_of_machine(const std::filesystem::path& grou
 void require_memory(const Preparation& p, int ranks, std::optional<std::uint64_t> machine) {
   const std::uint64_t needed = memory_of(p, ranks);
   if (!machine || needed <= *machine) return;
-  const std::uint64_t impactor = p.impactor ? p.impactor->memory_bytes : 0;
-  const bool structure = p.structure && p.structure->memory_bytes > impactor;
-  const bool foam = p.impactor && p.impactor->elements > 0;
-  const std::string of_impactor = foam ? "impactor.foam.elements" : "impactor.slug.particle.diameter";
-  const std::string key = structure ? "structure.mesh.refinement" : of_impactor;
+  const std::uint64_t of_impactor = p.impactor ? p.impactor->memory() : 0;
+  const bool structure = p.structure && p.structure->memory() > of_impactor;
+  const bool foam = p.scene.impactor().type() == scene::Impactor::TYPE_FOAM;
+  const std::string key = structure ? "structure.mesh.refinement"
+                          : foam    ? "impactor.foam.elements"
+                                    : "impactor.slug.particle.diameter";
   const char* change = structure || foam ? "lower" : "raise";
   const std::string text = key + ": the run would take about " + gibibytes(needed) +
                            " of memory, snapshots included, but this machine has " + gibibytes(*machine) + "; " +

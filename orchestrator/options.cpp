@@ -16,6 +16,15 @@ void add_scene(CLI::App& command, SceneOptions& options) {
       ->allow_extra_args(false);
 }
 
+/// What of a scene is executed only on the user's own word.
+template <typename Options>
+void add_allowances(CLI::App& command, Options& options) {
+  command.add_flag("--allow-program", options.allow_program,
+                   "Let the scene start a program that is not Grainstep's own");
+  command.add_flag("--allow-deck", options.allow_deck,
+                   "Let the scene run a LAMMPS script, which can do anything on this machine");
+}
+
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Compute a scene");
   add_scene(*run, options.scene);
@@ -34,6 +43,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
                   "tcp://HOST:PORT for external participants; the structure's port is the next one");
   run->add_option("--curve-dir", options.curve_dir, "Directory with the keys that encrypt tcp");
   run->add_flag("--allow-plain-tcp", options.allow_plain_tcp, "Let tcp leave this host without encryption");
+  add_allowances(*run, options);
   return run;
 }
 
@@ -42,6 +52,7 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
   add_scene(*check, options.scene);
   check->add_option("--ranks", options.ranks, "MPI ranks of the impactor, to say its cost for")
       ->check(CLI::Range(1, 4096));
+  add_allowances(*check, options);
   return check;
 }
 
@@ -60,7 +71,25 @@ CLI::App* add_study(CLI::App& app, StudyOptions& options) {
   study->add_option("--page", options.page, "Write a page in Markdown, with the pictures in images/ beside it");
   study->add_flag("--list", options.list, "Say what there is to do, and do nothing");
   study->add_flag("--quiet", options.quiet, "Nothing on the terminal but errors");
+  add_allowances(*study, options);
   return study;
+}
+
+CLI::App* add_conformance(CLI::App& app, ConformanceOptions& options) {
+  CLI::App* conformance = app.add_subcommand(
+      "conformance", "Try whether a participant keeps the protocol: grainstep conformance --role structure -- COMMAND");
+  conformance->add_option("--role", options.role, "Which side it is: structure or impactor")
+      ->required()
+      ->check(CLI::IsMember({"structure", "impactor"}));
+  conformance->add_option("--scene", options.scene.scene,
+                          "Scene whose part it is told (default: one of the type external, without settings)");
+  conformance->add_option("--set", options.scene.set, "PATH=VALUE: overrides a key of the scene")
+      ->allow_extra_args(false);
+  conformance->add_option("--only", options.only, "A clause by its name; may be repeated")->allow_extra_args(false);
+  conformance->add_option("--patience", options.patience_s, "Seconds that any one answer may take")
+      ->check(participant::positive_number());
+  conformance->add_option("command", options.command, "The participant's command; --connect ENDPOINT is added to it");
+  return conformance;
 }
 
 std::vector<std::string> options_of(const CLI::App& command) {
@@ -131,6 +160,9 @@ CommandLine parse(int argc, const char* const* argv) {
   StudyOptions study_options;
   const CLI::App* study = add_study(app, study_options);
 
+  ConformanceOptions conformance_options;
+  const CLI::App* conformance = add_conformance(app, conformance_options);
+
   CommandLine out;
   try {
     app.parse(argc, argv);
@@ -145,6 +177,8 @@ CommandLine parse(int argc, const char* const* argv) {
     out.check = check_options;
   } else if (study->parsed()) {
     out.study = study_options;
+  } else if (conformance->parsed()) {
+    out.conformance = conformance_options;
   } else {
     out.show = show_options;
   }

@@ -26,11 +26,16 @@ struct RunOptions {
   std::filesystem::path curve_dir;  ///< keys for tcp
   bool allow_plain_tcp = false;
   std::vector<std::string> external;  ///< "impactor", "structure"
+  bool allow_program = false;         ///< that the scene names, and that is not ours
+  bool allow_deck = false;            ///< LAMMPS scripts may be run
 };
 
 struct CheckOptions {
   SceneOptions scene;
   int ranks = 1;  ///< of the impactor, that the cost is told for
+  bool allow_program = false;
+  bool allow_deck = false;
+  Deadlines deadlines;
 };
 
 struct ShowOptions {
@@ -49,8 +54,18 @@ struct StudyOptions {
   bool full = false;    ///< with the study's overrides of that name
   bool repeat = false;  ///< compute again what is done, e.g. for timings
   bool retry = false;   ///< compute again what failed numerically
+  bool allow_program = false;
+  bool allow_deck = false;
   bool list = false;
   bool quiet = false;
+};
+
+struct ConformanceOptions {
+  SceneOptions scene;                ///< no file: a scene of the type external, without settings
+  std::string role;                  ///< "structure", "impactor"
+  std::vector<std::string> only;     ///< names of clauses; empty: all
+  std::vector<std::string> command;  ///< empty: the scene's program
+  double patience_s = 20.0;
 };
 
 /// One of the commands with its options; `exit_code` instead where the command line was answered already (--help) or
@@ -61,6 +76,7 @@ struct CommandLine {
   std::optional<CheckOptions> check;
   std::optional<ShowOptions> show;
   std::optional<StudyOptions> study;
+  std::optional<ConformanceOptions> conformance;
 };
 
 [[nodiscard]] CommandLine parse(int argc, const char* const* argv);

@@ -7,7 +7,6 @@
 #include "base/error.hpp"
 #include "orchestrator/peer.hpp"
 #include "process/launch.hpp"
-#include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -26,9 +25,30 @@ std::string next_port(const std::string& endpoint) {
 }
 
 bool is_external(wire::Role role, const scene::Scene& scene, const RunOptions& options) {
-  const bool by_scene = role == wire::IMPACTOR ? scene.impactor().type() == scene::Impactor::TYPE_EXTERNAL
-                                               : scene.structure().type() == scene::Structure::TYPE_EXTERNAL;
-  return by_scene || std::ranges::find(options.external, name_of(role)) != options.external.end();
+  return scene::program_of(scene, role).command.empty() ||
+         std::ranges::find(options.external, name_of(role)) != options.external.end();
+}
+
+void check_programs(const scene::Scene& scene, const RunOptions& options) {
+  for (const wire::Role role : {wire::IMPACTOR, wire::STRUCTURE}) {
+    const scene::Program program = scene::program_of(scene, role);
+    const std::string key = std::string(name_of(role)) + ".program";
+    const auto sets_it = [&key](const std::string& set) { return set.starts_with(key + "="); };
+    const bool said = options.allow_program || std::ranges::any_of(options.scene.set, sets_it);
+    if (program.own || said || is_external(role, scene, options)) continue;
+    throw InputError(key + ": the scene would start '" + program.command.front() +
+                     "', which is not one of Grainstep's own programs. If you mean it, add --set " + key + "=" +
+                     program.command.front() + ", or --allow-program");
+  }
+}
+
+void check_deck(const scene::Scene& scene, const RunOptions& options) {
+  if (scene.impactor().type() != scene::Impactor::TYPE_DECK || options.allow_deck) return;
+  if (is_external(wire::IMPACTOR, scene, options)) return;
+  const std::string& file = scene.impactor().deck().file();
+  throw InputError("impactor.deck: the scene would run the LAMMPS script " +
+                   (file.empty() ? "in it" : "'" + file + "'") +
+                   ", which can do anything on this machine. If you mean it, add --allow-deck");
 }
 
 void check_connection(const scene::Scene& scene, const RunOptions& options) {
@@ -55,21 +75,12 @@ void check_connection(const scene::Scene& scene, const RunOptions& options) {
   }
 }
 
-bool has_particles(const scene::Scene& scene) {
-  return scene::has_slug(scene) && scene.impactor().type() != scene::Impactor::TYPE_FOAM;
-}
-
 Participants::Participants(const scene::Scene& scene, const RunOptions& options)
     : options_(options),
-      impactor_{wire::IMPACTOR,
-                is_external(wire::IMPACTOR, scene, options),
-                has_particles(scene),
-                {"grainstep-dem"},
-                nullptr},
-      structure_{wire::STRUCTURE, is_external(wire::STRUCTURE, scene, options), false, {"grainstep-fe"}, nullptr} {
-  if (!impactor_.mpi) {
-    impactor_.command = {"grainstep-fe", "--role", "impactor"};
-  }
+      impactor_{wire::IMPACTOR, is_external(wire::IMPACTOR, scene, options), scene::program_of(scene, wire::IMPACTOR),
+                scene.impactor().type() == scene::Impactor::TYPE_DECK, nullptr},
+      structure_{wire::STRUCTURE, is_external(wire::STRUCTURE, scene, options),
+                 scene::program_of(scene, wire::STRUCTURE), false, nullptr} {
   open(impactor_);
   open(structure_);
 }
@@ -92,31 +103,38 @@ void Participants::open(Side& side) {
   side.channel = transport::ZmqChannel::bind(endpoint, zmq);
 }
 
-void Participants::start(const Side& side, Supervision& supervision, const results::RunDirectory& directory) const {
+void Participants::tell_how_to_start(const Side& side) const {
   const std::string& endpoint = side.channel->endpoint();
-  if (side.external) {
-    const bool keys = transport::is_tcp(endpoint) && !options_.curve_dir.empty();
-    std::string command;
-    for (const std::string& word : side.command) command += word + " ";
-    std::printf("waiting %.0f s for the %s; start it with:\n  %s--connect %s%s%s\n", options_.deadlines.connect_s,
-                name_of(side.role), command.c_str(), endpoint.c_str(), keys ? " --curve-dir DIR" : "",
-                options_.allow_plain_tcp ? " --allow-plain-tcp" : "");
-    std::fflush(stdout);
-    return;
-  }
-  process::Command command{.program = process::find_program(side.command.front()),
-                           .arguments = {side.command.begin() + 1, side.command.end()},
-                           .environment = {}};
-  command.arguments.insert(command.arguments.end(), {"--connect", endpoint});
-  if (side.mpi) {
-    command = process::mpi_command(options_.ranks, std::move(command));
-  }
-  supervision.start(side.role, command, directory.logs() / (std::string(name_of(side.role)) + ".log"));
+  const bool keys = transport::is_tcp(endpoint) && !options_.curve_dir.empty();
+  std::string command;
+  for (const std::string& word : side.program.command) command += word + " ";
+  std::printf("waiting %.0f s for the %s; start it with:\n  %s--connect %s%s%s\n", options_.deadlines.connect_s,
+              name_of(side.role), command.c_str(), endpoint.c_str(), keys ? " --curve-dir DIR" : "",
+              options_.allow_plain_tcp ? " --allow-plain-tcp" : "");
+  std::fflush(stdout);
 }
 
-void Participants::start(Supervision& supervision, const results::RunDirectory& directory) {
-  start(structure_, supervision, directory);
-  start(impactor_, supervision, directory);
+void Participants::start(const Side& side, Supervision& supervision, const std::filesystem::path& logs) const {
+  const std::vector<std::string>& words = side.program.command;
+  process::Command command{.program = process::find_program(words.front()),
+                           .arguments = {words.begin() + 1, words.end()},
+                           .environment = {}};
+  command.arguments.insert(command.arguments.end(), {"--connect", side.channel->endpoint()});
+  if (side.deck) command.arguments.emplace_back("--allow-deck");
+  if (side.program.ranks) {
+    command = process::mpi_command(options_.ranks, std::move(command));
+  }
+  supervision.start(side.role, command, logs / (std::string(name_of(side.role)) + ".log"));
+}
+
+void Participants::start(Supervision& supervision, const std::filesystem::path& logs, Others others) {
+  for (const Side* side : {&structure_, &impactor_}) {
+    if (!side->external) {
+      start(*side, supervision, logs);
+    } else if (others == Others::told) {
+      tell_how_to_start(*side);
+    }
+  }
 }
 
 }  // namespace grainstep::orchestrator

@@ -9,7 +9,7 @@
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
 #include "orchestrator/supervision.hpp"
-#include "results/run_directory.hpp"
+#include "scene/needs.hpp"
 #include "transport/zmq_channel.hpp"
 
 namespace grainstep::orchestrator {
@@ -21,8 +21,10 @@ namespace grainstep::orchestrator {
 /// slip, and about encryption a dangerous one.
 void check_connection(const scene::Scene& scene, const RunOptions& options);
 
-/// A slug is computed by grainstep-dem; what else loads a structure, by grainstep-fe in the impactor's role.
-[[nodiscard]] bool has_particles(const scene::Scene& scene);
+/// InputError where the scene names a program that is not ours and nobody at this machine has said that it may run:
+/// scenes travel between people.
+void check_programs(const scene::Scene& scene, const RunOptions& options);
+void check_deck(const scene::Scene& scene, const RunOptions& options);  ///< the same of a LAMMPS script
 
 /// Where the structure listens when the impactor does at `endpoint`: one port above, or at any free one (0, *) as well.
 /// InputError for what is no port.
@@ -36,8 +38,10 @@ class Participants {
   [[nodiscard]] transport::Channel& impactor() { return *impactor_.channel; }
   [[nodiscard]] transport::Channel& structure() { return *structure_.channel; }
 
-  /// Starts those that are ours and prints, for the others, the command that starts them.
-  void start(Supervision& supervision, const results::RunDirectory& directory);
+  /// Whether the commands that start the others are printed.
+  enum class Others { told, nothing };
+  /// Starts those that are to be started here; their output goes to impactor.log and structure.log in `logs`.
+  void start(Supervision& supervision, const std::filesystem::path& logs, Others others = Others::told);
 
   /// Takes the local sockets' names from the file system once both are connected, which needs them no more: whatever
   /// ends this process from then on, nothing of them stays.
@@ -47,13 +51,14 @@ class Participants {
   struct Side {
     wire::Role role;
     bool external;
-    bool mpi;
-    std::vector<std::string> command;  ///< program and what it is told besides where to connect
+    scene::Program program;
+    bool deck;  ///< it will run a script, and was allowed to
     std::unique_ptr<transport::ZmqChannel> channel;
   };
   [[nodiscard]] std::string endpoint_of(const Side& side) const;
   void open(Side& side);
-  void start(const Side& side, Supervision& supervision, const results::RunDirectory& directory) const;
+  void tell_how_to_start(const Side& side) const;
+  void start(const Side& side, Supervision& supervision, const std::filesystem::path& logs) const;
 
   RunOptions options_;
   TemporaryDirectory sockets_;

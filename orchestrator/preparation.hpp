@@ -1,4 +1,4 @@
-/// @file A scene as it will be run, known before anything is started: loaded, checked, stepped.
+/// @file A scene as it will be run, known before the run is started: loaded, checked, its participants asked, stepped.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fe-service/preview.hpp"
 #include "grainstep/scene.pb.h"
+#include "grainstep/wire.pb.h"
 #include "orchestrator/options.hpp"
 #include "orchestrator/step_plan.hpp"
 #include "scene/groups.hpp"
@@ -15,45 +15,36 @@
 
 namespace grainstep::orchestrator {
 
-/// What an impactor will be, whatever its kind. Steps in s.
-struct ImpactorPreview {
-  std::uint64_t particles = 0;
-  std::uint64_t elements = 0;            ///< of a foam projectile
-  double mass = 0.0;                     ///< kg, of its particles, of what is modelled; 0: it has none
-  double smallest = 0.0, largest = 0.0;  ///< m, diameters of particles
-  double contact_mass = 0.0;             ///< kg, the heaviest that touches at one point
-  double contact_time = 0.0;             ///< s, between two of the smallest particles; 0: it has no contacts
-  double longest_window = 0.0;           ///< s; 0: no limit of its own
-  double stable_step = 0.0;
-  double preferred_step = 0.0;
-  std::uint64_t memory_bytes = 0;
-  std::uint64_t process_bytes = 0;  ///< the part of it that every rank takes, whatever its share of particles
-  double seconds_per_step = 0.0;    ///< estimate, one core
-};
-
 struct Preparation {
   scene::Scene scene;
   std::uint64_t hash = 0;
   std::string yaml;  ///< resolved
   std::vector<scene::Finding> warnings;
   scene::Groups groups;
-  std::optional<ImpactorPreview> impactor;        ///< nullopt: external
-  std::optional<fe::StructurePreview> structure;  ///< nullopt: external
-  std::optional<StepPlan> plan;                   ///< nullopt: an external side will say its steps
+  std::optional<wire::Ready> impactor;   ///< as it said when asked; nullopt: external
+  std::optional<wire::Ready> structure;  ///< the same
+  std::optional<StepPlan> plan;          ///< nullopt: an external side will say its steps
 };
 
-/// Throws InputError for everything about a scene that can be known to be wrong. `options` tells which sides are
-/// external.
+/// Throws InputError for everything about a scene that can be known to be wrong, PeerError for a participant that does
+/// not answer as it should. `options` tells which sides are external.
 [[nodiscard]] Preparation prepare(const RunOptions& options);
 
-/// The same for a scene that is loaded already; `options.scene` is not looked at.
+/// The same for a scene that is loaded already; of `options.scene` only the overrides are looked at.
 [[nodiscard]] Preparation prepare(scene::Scene scene, const RunOptions& options);
+
+/// The first half of it: everything but what the participants say. The second: asks them.
+[[nodiscard]] Preparation prepare_unasked(scene::Scene scene, const RunOptions& options);
+void ask_participants(Preparation& preparation, const RunOptions& options);
 
 /// To stderr, a line each: check, run and study say the same before anything starts. `of`: which scene, in front.
 void print_warnings(const Preparation& preparation, const std::string& of = "");
 
 /// Those of a plan alone, where it was made only with what an external side said.
 void print_warnings(const StepPlan& plan, const std::string& of = "");
+
+/// Whether what it counts are particles, and it has some: their mass is that of the groups.
+[[nodiscard]] bool is_of_particles(const wire::Ready& ready);
 
 /// Seconds that both sides compute, each on a core of its own; nothing where an external side does not say.
 struct Cost {

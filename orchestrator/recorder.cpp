@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/error.hpp"
@@ -14,8 +15,9 @@ namespace {
 
 constexpr auto burst_interval = std::chrono::seconds(1);
 constexpr std::size_t burst_bytes = 64U << 20U;
-constexpr double early_from = 0.05;  // t_hat
-constexpr double early_to = 0.3;     // t_hat
+constexpr double early_from = 0.05;                                   // t_hat
+constexpr double early_to = 0.3;                                      // t_hat
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // of an observable that a structure does not have
 
 std::span<const double> span_of(const google::protobuf::RepeatedField<double>& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
@@ -38,21 +40,40 @@ Recorder::Recorder(const Context& context, const results::RunDirectory& director
       file_(file),
       snapshots_(directory, file),
       masses_(context.masses),
+      levels_(context.levels),
       tick_(std::move(tick)),
-      sums_(2),
       load_(surface_load(context), {.window = context.plan.window, .steps = context.plan.impactor_steps},
             context.groups.loaded_area),
+      sums_(load_.surface().dimension()),
       flushed_(transport::Clock::now()) {
   load_.watch(groups_.arrival + early_from * groups_.slug_time);
   load_.watch(groups_.arrival + early_to * groups_.slug_time);
-  profile_mark_.assign(2 * load_.surface().nodes(), 0.0);
+  profile_mark_.assign(load_.surface().values(), 0.0);
+  describe_profiles();
+}
+
+// Of triangles the middle's place and the area, where segments have x1 and length.
+void Recorder::describe_profiles() {
+  const ledger::SurfaceLoad& surface = load_.surface();
+  if (surface.dimension() == 3) {
+    file_.add(results::Array{.dataset = "/profiles/position",
+                             .meaning = {"m", "undeformed middle of every triangle"},
+                             .columns = 3,
+                             .values = surface.middles(),
+                             .indices = {}});
+    file_.add(results::Array{.dataset = "/profiles/area",
+                             .meaning = {"m2", "undeformed area of every triangle"},
+                             .values = surface.areas(),
+                             .indices = {}});
+    return;
+  }
   file_.add(results::Array{.dataset = "/profiles/x1",
                            .meaning = {"m", "undeformed x1 of every segment's middle"},
-                           .values = load_.surface().midpoints(),
+                           .values = surface.midpoints(),
                            .indices = {}});
   file_.add(results::Array{.dataset = "/profiles/length",
                            .meaning = {"m", "undeformed length of every segment"},
-                           .values = load_.surface().lengths(),
+                           .values = surface.lengths(),
                            .indices = {}});
 }
 
@@ -109,7 +130,7 @@ void Recorder::complete_rows() {
 
 void Recorder::write_row(std::uint64_t window, const Pending& row) {
   if (!ledger_) {
-    ledger_.emplace(*row.impactor, *row.structure, plan_.impactor_steps == 1, masses_);
+    ledger_.emplace(*row.impactor, *row.structure, plan_.impactor_steps == 1, masses_, levels_);
   }
   const ledger::Balance balance = ledger_->close(*row.impactor, *row.structure, row.handed_over);
   const double time = time_of(window);
@@ -119,7 +140,8 @@ void Recorder::write_row(std::uint64_t window, const Pending& row) {
                      .transmitted = row.transmitted,
                      .impactor = *row.impactor,
                      .structure = *row.structure,
-                     .balance = balance};
+                     .balance = balance,
+                     .dimension = static_cast<unsigned>(load_.surface().dimension())};
   file_.add(series_row(data, groups_));
   file_.add(ledger_row(data));
   file_.add(timing_row(data));
@@ -136,8 +158,9 @@ void Recorder::remember(std::uint64_t window, const Pending& row, const ledger::
   findings_.energy_drift =
       balance.energy_reference > 0.0 ? unexplained_ / balance.energy_reference : balance.energy_drift;
   findings_.momentum_error = std::max(findings_.momentum_error, balance.momentum_error);
-  findings_.peak_deflection = ledger::find(*row.structure, ledger::observable::peak_deflection).value_or(0.0);
-  findings_.peak_deflection_time = ledger::find(*row.structure, ledger::observable::peak_deflection_time).value_or(0.0);
+  findings_.peak_deflection = ledger::find(*row.structure, ledger::observable::peak_deflection).value_or(nothing);
+  findings_.peak_deflection_time =
+      ledger::find(*row.structure, ledger::observable::peak_deflection_time).value_or(nothing);
   if (const auto deflection = ledger::find(*row.structure, ledger::observable::deflection)) {
     deflections_.push_back({.time = time_of(window), .deflection = *deflection, .load = row.handed_over.sizes});
   }

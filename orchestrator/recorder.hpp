@@ -46,6 +46,7 @@ class Recorder final : public StepObserver {
     const StepPlan& plan;
     const wire::Surface& surface;
     ledger::Masses masses = {};
+    ledger::Levels levels = {};
   };
   /// `tick` is called when the run has a moment, with the windows seen so far. References must outlive the recorder.
   Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
@@ -74,6 +75,7 @@ class Recorder final : public StepObserver {
   void write_row(std::uint64_t window, const Pending& row);
   void judge(std::uint64_t window, const Pending& row, const ledger::Balance& balance) const;
   void remember(std::uint64_t window, const Pending& row, const ledger::Balance& balance);
+  void describe_profiles();
   void write_profile(std::uint64_t window);
 
   const scene::Scene& scene_;
@@ -83,9 +85,10 @@ class Recorder final : public StepObserver {
   results::ResultsFile& file_;
   results::Snapshots snapshots_;
   ledger::Masses masses_;
+  ledger::Levels levels_;
   std::function<void(std::uint64_t)> tick_;
-  ledger::ImpulseSums sums_;
   ledger::LoadHistory load_;
+  ledger::ImpulseSums sums_;
   std::optional<ledger::Ledger> ledger_;
   std::map<std::uint64_t, Pending> pending_;
   double row_time_ = 0.0;         // of the last row

@@ -15,10 +15,16 @@ void put(Row& row, const std::string& dataset, const char* unit, const char* tit
   row.push_back({.dataset = dataset, .meaning = {unit, title}, .value = value});
 }
 
-void put_vector(Row& row, const std::string& dataset, const char* unit, const char* title,
-                const ledger::Vector& value) {
-  put(row, dataset + "_x1", unit, title, value[0]);
-  put(row, dataset + "_x2", unit, title, value[1]);
+/// As many components as the run has dimensions.
+struct VectorEntry {
+  const char* title;
+  const ledger::Vector& value;
+  unsigned dimension;
+};
+
+void put_vector(Row& row, const std::string& dataset, const char* unit, const VectorEntry& entry) {
+  constexpr const char* endings[] = {"_x1", "_x2", "_x3"};
+  for (unsigned c = 0; c < entry.dimension; ++c) put(row, dataset + endings[c], unit, entry.title, entry.value[c]);
 }
 
 void put_observables(Row& row, const char* side, const wire::Report& report) {
@@ -40,12 +46,13 @@ void put_energy(Row& row, const std::string& side, const wire::Energy& e, double
   put(row, group + "error", "", "what of this side's energy is not explained, over the reference", error);
 }
 
-void put_momentum(Row& row, const std::string& side, const ledger::Closure& closure) {
+void put_momentum(Row& row, const std::string& side, const ledger::Closure& closure, unsigned dimension) {
   const std::string group = "/ledger/" + side + "/momentum/";
-  put_vector(row, group + "change", "N s", "momentum gained since the start", closure.change);
-  put_vector(row, group + "interface", "N s", "impulse received through the surface since the start",
-             closure.interface);
-  put_vector(row, group + "support", "N s", "impulse received from supports since the start", closure.support);
+  put_vector(row, group + "change", "N s", {"momentum gained since the start", closure.change, dimension});
+  put_vector(row, group + "interface", "N s",
+             {"impulse received through the surface since the start", closure.interface, dimension});
+  put_vector(row, group + "support", "N s",
+             {"impulse received from supports since the start", closure.support, dimension});
   put(row, group + "error", "", "what of this side's momentum is not explained, over the reference", closure.error);
 }
 
@@ -80,8 +87,8 @@ Row ledger_row(const RowData& data) {
   put(row, "/ledger/interface_momentum", "",
       "momentum that the sides claim to have received beyond what the messages carried, over the reference",
       b.interface_momentum);
-  put_vector(row, "/ledger/in_flight", "N s", "impulse given by the impactor that the structure has not taken up yet",
-             b.in_flight);
+  put_vector(row, "/ledger/in_flight", "N s",
+             {"impulse given by the impactor that the structure has not taken up yet", b.in_flight, data.dimension});
   put(row, "/ledger/energy", "J", "kinetic, stored and dissipated energy of both sides less the supports' work",
       b.energy);
   put(row, "/ledger/energy_reference", "J", "energy of the start or, if larger, the most supplied from outside so far",
@@ -93,8 +100,8 @@ Row ledger_row(const RowData& data) {
       "work on the surface as the impactor sees it, less as the structure sees it", b.interface_mismatch);
   put_energy(row, "impactor", data.impactor.energy(), b.impactor_energy);
   put_energy(row, "structure", data.structure.energy(), b.structure_energy);
-  put_momentum(row, "impactor", b.impactor);
-  put_momentum(row, "structure", b.structure);
+  put_momentum(row, "impactor", b.impactor, data.dimension);
+  put_momentum(row, "structure", b.structure, data.dimension);
   return row;
 }
 

@@ -18,6 +18,7 @@ struct RowData {
   const wire::Report& impactor;
   const wire::Report& structure;
   const ledger::Balance& balance;
+  unsigned dimension = 2;
 };
 
 [[nodiscard]] std::vector<results::Entry> series_row(const RowData& data, const scene::Groups& groups);

@@ -32,13 +32,11 @@ void announce(const RunOptions& options, const Preparation& preparation, const r
               preparation.scene.title().empty() ? options.scene.scene.c_str() : preparation.scene.title().c_str());
   if (preparation.plan && preparation.impactor && preparation.structure) {
     const StepPlan& plan = *preparation.plan;
-    const bool foam = preparation.impactor->elements > 0;
-    std::printf(
-        "%llu %s, %llu elements, %llu windows of %u and %u steps -> %s\n",
-        static_cast<unsigned long long>(foam ? preparation.impactor->elements : preparation.impactor->particles),
-        foam ? "foam elements" : "particles", static_cast<unsigned long long>(preparation.structure->elements),
-        static_cast<unsigned long long>(plan.windows), plan.impactor_steps, plan.structure_steps,
-        directory.path().c_str());
+    std::printf("%llu %s, %llu %s, %llu windows of %u and %u steps -> %s\n",
+                static_cast<unsigned long long>(preparation.impactor->size()), preparation.impactor->counted().c_str(),
+                static_cast<unsigned long long>(preparation.structure->size()),
+                preparation.structure->counted().c_str(), static_cast<unsigned long long>(plan.windows),
+                plan.impactor_steps, plan.structure_steps, directory.path().c_str());
   }
   std::fflush(stdout);
 }
@@ -60,7 +58,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
     supervision.watch({.impactor = {hub.impactor().introduced, hub.impactor().finished},
                        .structure = {hub.structure().introduced, hub.structure().finished}});
   });
-  participants.start(supervision, directory);
+  participants.start(supervision, directory.logs());
   const Ending ending =
       conduct(hub, {.preparation = preparation,
                     .directory = directory,

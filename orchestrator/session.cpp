@@ -1,39 +1,22 @@
 #include "orchestrator/session.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "base/error.hpp"
-#include "base/number_text.hpp"
 #include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
-namespace {
-
-constexpr int digits = 4;  // of times and steps, in messages
-
-}  // namespace
-
-void Session::check_hello(const Peer& peer) const {
-  const wire::Hello& hello = peer.hello;
-  const auto refuse = [&](const std::string& text) { throw PeerError(peer.name(), hello.backend() + ": " + text); };
-  if (hello.protocol() != wire::PROTOCOL_VERSION) {
-    refuse("speaks protocol version " + std::to_string(hello.protocol()) + ", this program version " +
-           std::to_string(wire::PROTOCOL_VERSION) + ": update the older one");
-  }
-  if (hello.role() != peer.role) {
-    refuse("says that it is the " + wire::Role_Name(hello.role()) + ", the " + wire::Role_Name(peer.role) +
-           " was expected: it was started with the other side's address");
-  }
-  if (hello.dimension() != 2) {
-    refuse("computes in " + std::to_string(hello.dimension()) + " dimensions, the scene has 2");
-  }
+Demands Session::demands_of(const Peer& peer) const {
+  return {.dimension = scene::surface_dimension(task_.scene),
+          .needs = scene::needs(task_.scene, peer.role),
+          .scene_hash = task_.hash,
+          .preview = task_.preview};
 }
 
 void Session::introduce() {
   const auto handler = [this](Peer& peer, const wire::Frame& frame) {
     peer.messages.take(frame, peer.hello);
-    check_hello(peer);
+    check_hello(peer, demands_of(peer));
     peer.introduced = true;
   };
   Peer& impactor = hub_.impactor();
@@ -56,6 +39,8 @@ wire::Setup Session::setup() const {
   out.set_symmetry(task_.scene.symmetry());
   out.set_depth(task_.scene.depth());
   out.set_mirror(scene::has_mirror(task_.scene));
+  out.set_dimension(scene::surface_dimension(task_.scene));
+  out.set_preview(task_.preview);
   return out;
 }
 
@@ -75,28 +60,15 @@ void Session::make_ready(Peer& peer, const wire::Setup& setup) {
     throw PeerError(peer.name(), "did not prepare its model within " + std::to_string(static_cast<int>(patience)) +
                                      " s; --step-deadline waits longer");
   }
-  if (peer.ready.scene_hash() != task_.hash) {
-    throw PeerError(peer.name(), "prepared scene " + std::to_string(peer.ready.scene_hash()) +
-                                     ", this run is of scene " + std::to_string(task_.hash));
-  }
-  if (!(peer.ready.stable_step() > 0.0) || !(peer.ready.preferred_step() > 0.0) ||
-      !std::isfinite(peer.ready.preferred_step())) {
-    throw PeerError(peer.name(), "gives a stable step of " + rounded_text(peer.ready.stable_step(), digits) +
-                                     " s and prefers " + rounded_text(peer.ready.preferred_step(), digits) +
-                                     " s; both must be above zero");
-  }
-  if (peer.ready.preferred_step() > peer.ready.stable_step()) {
-    throw PeerError(peer.name(), "prefers a step of " + rounded_text(peer.ready.preferred_step(), digits) +
-                                     " s, but is stable only up to " + rounded_text(peer.ready.stable_step(), digits) +
-                                     " s");
-  }
+  check_ready(peer, demands_of(peer));
 }
 
-StepPlan Session::prepare() {
+void Session::ask() {
   wire::Setup for_structure = setup();
   *for_structure.mutable_structure()->mutable_structure() = task_.scene.structure();
   *for_structure.mutable_structure()->mutable_guards() = task_.scene.guards();
-  make_ready(hub_.structure(), for_structure);
+  if (!hub_.structure().finished) make_ready(hub_.structure(), for_structure);
+  if (hub_.impactor().finished) return;
 
   wire::Setup for_impactor = setup();
   *for_impactor.mutable_impactor()->mutable_impactor() = task_.scene.impactor();
@@ -104,16 +76,11 @@ StepPlan Session::prepare() {
   *for_impactor.mutable_impactor()->mutable_surface() = hub_.structure().ready.surface();
   for_impactor.mutable_impactor()->set_free_mass(hub_.structure().ready.free_mass());
   make_ready(hub_.impactor(), for_impactor);
+}
 
-  const auto steps = [](const Peer& peer) {
-    return SideSteps{.stable = peer.ready.stable_step(),
-                     .preferred = peer.ready.preferred_step(),
-                     .contact_mass = peer.ready.contact_mass(),
-                     .contact_time = peer.ready.contact_time(),
-                     .longest_window = peer.ready.longest_window(),
-                     .free_mass = peer.ready.free_mass()};
-  };
-  return plan_steps(task_.scene, task_.end, steps(hub_.impactor()), steps(hub_.structure()));
+StepPlan Session::prepare() {
+  ask();
+  return plan_steps(task_.scene, task_.end, steps_of(hub_.impactor().ready), steps_of(hub_.structure().ready));
 }
 
 void Session::run(const StepPlan& plan, StepObserver& observer) {
@@ -123,14 +90,17 @@ void Session::run(const StepPlan& plan, StepObserver& observer) {
   steps_.emplace(hub_, observer, start, deadlines_.step_s);
   steps_->run();
   observer.finish();
-  complete();
+  stop_sides("complete");
 }
 
-void Session::complete() {
+void Session::end() { stop_sides("only asked"); }
+
+void Session::stop_sides(const std::string& reason) {
   wire::Stop message;
-  message.set_reason("complete");
-  hub_.send(hub_.impactor(), message);
-  hub_.send(hub_.structure(), message);
+  message.set_reason(reason);
+  for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) {
+    if (!peer->finished) hub_.send(*peer, message);
+  }
   const auto handler = [](Peer& peer, const wire::Frame& frame) {
     wire::Finished last;
     peer.messages.take(frame, last);

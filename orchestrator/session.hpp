@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "grainstep/scene.pb.h"
+#include "orchestrator/check_ready.hpp"
 #include "orchestrator/hub.hpp"
 #include "orchestrator/lock_step.hpp"
 #include "orchestrator/step_observer.hpp"
@@ -17,11 +18,13 @@ namespace grainstep::orchestrator {
 struct Task {
   const scene::Scene& scene;
   std::uint64_t hash = 0;
-  double end = 0.0;  ///< s
+  double end = 0.0;      ///< s
+  bool preview = false;  ///< nothing will be started: only what the sides say before is wanted
 };
 
-/// Order of calls: introduce, prepare, run; and at any time after construction, when one of them threw, abandon.
-/// It does not matter to a session whether its channels lead to processes or to threads.
+/// Order of calls: introduce, prepare, run (of a preview: introduce, ask, end); and at any time after construction,
+/// when one of them threw, abandon. It does not matter to a session whether its channels lead to processes or to
+/// threads.
 class Session {
  public:
   Session(Hub& hub, const Task& task, const Deadlines& deadlines) : hub_(hub), task_(task), deadlines_(deadlines) {}
@@ -32,6 +35,11 @@ class Session {
   /// Setup and Ready: the structure first, because the impactor is told its surface. Agrees on the steps.
   [[nodiscard]] StepPlan prepare();
 
+  /// The same of those sides that are there (not finished from the start), without steps.
+  void ask();
+  /// Stop in place of Start, Finished.
+  void end();
+
   /// Start, all windows, Stop, Finished.
   void run(const StepPlan& plan, StepObserver& observer);
 
@@ -40,10 +48,10 @@ class Session {
   void abandon(const std::string& reason, const std::string& lost) noexcept;
 
  private:
-  void check_hello(const Peer& peer) const;
+  [[nodiscard]] Demands demands_of(const Peer& peer) const;
   wire::Setup setup() const;
   void make_ready(Peer& peer, const wire::Setup& setup);
-  void complete();
+  void stop_sides(const std::string& reason);
   void tell_to_stop(const std::string& reason);
   [[nodiscard]] bool finished() { return hub_.impactor().finished && hub_.structure().finished; }
   void lose(const std::string& name);

@@ -186,6 +186,15 @@ wire::Start StepPlan::start() const {
   return out;
 }
 
+SideSteps steps_of(const wire::Ready& ready) {
+  return {.stable = ready.stable_step(),
+          .preferred = ready.preferred_step(),
+          .contact_mass = ready.contact_mass(),
+          .contact_time = ready.contact_time(),
+          .longest_window = ready.longest_window(),
+          .free_mass = ready.free_mass()};
+}
+
 StepPlan plan_steps(const scene::Scene& scene, double end, SideSteps impactor, SideSteps structure) {
   StepPlan plan;
   const bool follows = impactor.preferred >= participant::no_step_limit &&

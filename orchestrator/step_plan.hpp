@@ -20,6 +20,8 @@ struct SideSteps {
   double free_mass = 0.0;       ///< kg, structure; 0: deformable or held
 };
 
+[[nodiscard]] SideSteps steps_of(const wire::Ready& ready);
+
 struct StepPlan {
   double impactor_step = 0.0;         ///< s
   double structure_step = 0.0;        ///< s

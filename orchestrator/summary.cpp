@@ -24,6 +24,17 @@ std::string text_of(const Json& value, const char* format) {
   return out;
 }
 
+/// m; not a number for a structure that does not say it.
+double half_span_of(const scene::Structure& structure) {
+  return structure.has_half_span() ? structure.half_span() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Which books a side kept; what it did not keep was not judged.
+Json ledger_word(const wire::Ready& ready) {
+  if (ready.ledger() == wire::FULL) return "full";
+  return ready.ledger() == wire::INTERFACE ? Json("interface") : Json(nullptr);
+}
+
 Json early_pressure(const SummaryInput& in) {
   const scene::Groups& g = in.groups;
   if (!in.findings.early_impulse || !(g.slug_pressure > 0.0)) {
@@ -59,10 +70,10 @@ Json summary(const SummaryInput& in) {
   out["impulse_number"] = number(g.impulse_number);
   out["areal_mass_ratio"] = number(g.areal_mass_ratio);
   out["loading_time_ratio"] = number(g.loading_time_ratio);
-  out["peak_deflection"] = in.plan ? number(f.peak_deflection / in.scene.structure().half_span()) : Json(nullptr);
+  const double half_span = half_span_of(in.scene.structure());
+  out["peak_deflection"] = in.plan ? number(f.peak_deflection / half_span) : Json(nullptr);
   out["peak_deflection_time"] = in.plan ? number(f.peak_deflection_time / g.reference_time) : Json(nullptr);
   out["peak_deflection_seconds"] = in.plan ? number(f.peak_deflection_time) : Json(nullptr);
-  const double half_span = in.scene.structure().half_span();
   out["final_deflection"] = f.rest ? number(f.rest->mean / half_span) : Json(nullptr);
   out["final_deflection_spread"] = f.rest ? number(f.rest->spread / half_span) : Json(nullptr);
   out["final_time"] = number(f.final_time / g.reference_time);
@@ -74,9 +85,10 @@ Json summary(const SummaryInput& in) {
   out["peak_core_compression_time"] = number(f.peak_core_compression_time.value_or(absent) / g.reference_time);
   out["energy_drift"] = in.plan ? number(f.energy_drift) : Json(nullptr);
   out["momentum_error"] = in.plan ? number(f.momentum_error) : Json(nullptr);
-  const bool foam = in.scene.impactor().type() == scene::Impactor::TYPE_FOAM;
-  out["particles"] = foam ? 0 : in.impactor.size();
-  out["impactor_elements"] = foam ? in.impactor.size() : 0;
+  out["ledgers"] = {{"impactor", ledger_word(in.impactor)}, {"structure", ledger_word(in.structure)}};
+  const bool mesh = in.impactor.counted() == "elements";
+  out["particles"] = mesh ? 0 : in.impactor.size();
+  out["impactor_elements"] = mesh ? in.impactor.size() : 0;
   out["elements"] = in.structure.size();
   out["impactor_steps"] = std::max(f.impactor_steps, in.impactor_timing.steps());
   out["structure_steps"] = std::max(f.structure_steps, in.structure_timing.steps());
@@ -129,6 +141,11 @@ std::string digest(const Json& s) {
          text_of(s.at("early_pressure"), "%.3f") + " p/(rho_bar rho_s v0^2)";
   out += "\nledgers              momentum error " + text_of(s.at("momentum_error"), "%.1e") + ", energy drift " +
          text_of(s.at("energy_drift"), "%.2e");
+  for (const char* side : {"impactor", "structure"}) {
+    if (s.value("ledgers", Json::object()).value(side, Json()) != "interface") continue;
+    out += "\n                     the " + std::string(side) +
+           " keeps no books of its own: only what passed the surface was judged";
+  }
   const Json& split = s.at("wall_split");
   const bool foam = s.value("impactor_elements", 0.0) > 0.0;
   out += "\nsize                 " +

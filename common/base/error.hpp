@@ -35,11 +35,13 @@ class NumericalError : public std::runtime_error {
 class PeerError : public std::runtime_error {
  public:
   PeerError(std::string peer, const std::string& text)
-      : std::runtime_error(peer + ": " + text), peer_(std::move(peer)) {}
+      : std::runtime_error(peer + ": " + text), peer_(std::move(peer)), text_(text) {}
   [[nodiscard]] const std::string& peer() const noexcept { return peer_; }
+  [[nodiscard]] const std::string& text() const noexcept { return text_; }  ///< what(), without the peer's name
 
  private:
   std::string peer_;
+  std::string text_;
 };
 
 /// Results could not be written: no space, no permission any more, a failing disk.

@@ -18,14 +18,14 @@ std::vector<Vec2> in_pairs(const double* values, std::size_t nodes) {
 }
 
 surface::Polyline polyline_of(const wire::Surface& message) {
-  if (message.position_size() == 0 || message.position_size() % 2 != 0 || message.segment_size() == 0 ||
-      message.segment_size() % 2 != 0 || message.velocity_size() != message.position_size()) {
+  if (message.position_size() == 0 || message.position_size() % 2 != 0 || message.facet_size() == 0 ||
+      message.facet_size() % 2 != 0 || message.velocity_size() != message.position_size()) {
     throw InputError("surface: expected two coordinates and velocities per node and two nodes per segment, found " +
                      std::to_string(message.position_size()) + ", " + std::to_string(message.velocity_size()) +
-                     " and " + std::to_string(message.segment_size()) + " numbers");
+                     " and " + std::to_string(message.facet_size()) + " numbers");
   }
   std::vector<surface::Polyline::Segment> segments;
-  for (int i = 0; i < message.segment_size(); i += 2) segments.push_back({message.segment(i), message.segment(i + 1)});
+  for (int i = 0; i < message.facet_size(); i += 2) segments.push_back({message.facet(i), message.facet(i + 1)});
   return {in_pairs(message.position().data(), static_cast<std::size_t>(message.position_size()) / 2), segments};
 }
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <optional>
 
 #include "ledger/observables.hpp"
 
@@ -17,6 +20,20 @@ Vector vector_of(const google::protobuf::RepeatedField<double>& values) {
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vector plus(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+
+constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
+
+/// In size, of those that are judged; not a number where one of these is none.
+double largest_judged(std::initializer_list<std::optional<double>> parts) {
+  double largest = 0.0;
+  for (const std::optional<double>& part : parts) {
+    if (part && !(std::abs(*part) <= largest)) largest = std::abs(*part);
+    if (std::isnan(largest)) return largest;
+  }
+  return largest;
+}
+
+std::optional<double> judged_if(bool judged, double value) { return judged ? std::optional(value) : std::nullopt; }
 
 // How far `value` lies outside the interval between two ends, given in either order.
 double outside(double value, double one_end, double other_end) {
@@ -49,12 +66,14 @@ double largest_momentum(double mass, const wire::Energy& energy) {
 
 }  // namespace
 
-Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps, const Masses& masses)
+Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps, const Masses& masses,
+               const Levels& levels)
     : impactor_start_(impactor.momentum()),
       structure_start_(structure.momentum()),
       impactor_start_energy_(own_energy(impactor.energy())),
       structure_start_energy_(own_energy(structure.energy())),
       equal_steps_(equal_steps),
+      levels_(levels),
       initial_energy_(energy_of(impactor.energy()) + energy_of(structure.energy())),
       momentum_reference_(
           std::max(length(plus(vector_of(impactor_start_.linear()), vector_of(structure_start_.linear()))),
@@ -63,12 +82,13 @@ Ledger::Ledger(const wire::Report& impactor, const wire::Report& structure, bool
 
 double Ledger::relative(double momentum) const { return part_of(momentum_reference_, momentum); }
 
-Closure Ledger::side(const wire::Momentum& now, const wire::Momentum& start) const {
+Closure Ledger::side(const wire::Momentum& now, const wire::Momentum& start, wire::Ledger level) const {
   Closure out;
   out.change = minus(vector_of(now.linear()), vector_of(start.linear()));
   out.interface = minus(vector_of(now.interface_impulse()), vector_of(start.interface_impulse()));
   out.support = minus(vector_of(now.support_impulse()), vector_of(start.support_impulse()));
-  out.error = relative(length(minus(out.change, plus(out.interface, out.support))));
+  const double error = relative(length(minus(out.change, plus(out.interface, out.support))));
+  out.error = level == wire::FULL ? error : not_judged;
   return out;
 }
 
@@ -92,15 +112,17 @@ Balance Ledger::close(const wire::Report& impactor, const wire::Report& structur
   momentum_reference_ = std::max(momentum_reference_, length(handed_over.total()));
   Balance out;
   out.momentum_reference = momentum_reference_;
-  out.impactor = side(impactor.momentum(), impactor_start_);
-  out.structure = side(structure.momentum(), structure_start_);
+  out.impactor = side(impactor.momentum(), impactor_start_, levels_.impactor);
+  out.structure = side(structure.momentum(), structure_start_, levels_.structure);
   const Vector given = minus(Vector{}, out.impactor.interface);
   out.in_flight = minus(given, out.structure.interface);
   const Vector change = plus(out.impactor.change, out.structure.change);
   const Vector supports = plus(out.impactor.support, out.structure.support);
   const double whole = relative(length(plus(minus(change, supports), out.in_flight)));
   out.interface_momentum = interface_excess(out, handed_over);
-  out.momentum_error = std::max({whole, out.interface_momentum, out.impactor.error, out.structure.error});
+  out.momentum_error = largest_judged({judged_if(levels_.full(), whole), out.interface_momentum,
+                                       judged_if(levels_.impactor == wire::FULL, out.impactor.error),
+                                       judged_if(levels_.structure == wire::FULL, out.structure.error)});
   close_energy(impactor, structure, handed_over.acting, out);
   return out;
 }
@@ -114,17 +136,22 @@ void Ledger::close_energy(const wire::Report& impactor, const wire::Report& stru
   const double taken_work = structure.energy().interface_work();
   supplied_ = std::max(supplied_, std::abs(impactor.energy().support_work() + structure.energy().support_work()));
   const double growth = std::max(1.0, measuring_windows / static_cast<double>(std::max<std::uint64_t>(1, acting)));
+  // Where a side's own energy is not known, what passes the surface is all that there is to measure with.
+  if (!levels_.full()) supplied_ = std::max({supplied_, std::abs(given_work), std::abs(taken_work)});
   out.energy_reference = supplied_ > initial_energy_ ? supplied_ * growth : initial_energy_;
   out.energy = energy_of(impactor.energy()) + energy_of(structure.energy());
   out.energy_change = part_of(out.energy_reference, out.energy - initial_energy_);
   out.impactor_energy = part_of(out.energy_reference, own_energy(impactor.energy()) - impactor_start_energy_);
   out.structure_energy = part_of(out.energy_reference, own_energy(structure.energy()) - structure_start_energy_);
   out.interface_mismatch = given_work - taken_work;
-  out.energy_drift = 0.0;
-  for (const double part : {out.energy_change, out.impactor_energy, out.structure_energy,
-                            part_of(out.energy_reference, out.interface_mismatch)}) {
-    out.energy_drift = std::max(out.energy_drift, std::abs(part));
-  }
+  const bool impactor_judged = levels_.impactor == wire::FULL;
+  const bool structure_judged = levels_.structure == wire::FULL;
+  out.energy_drift = largest_judged(
+      {judged_if(levels_.full(), out.energy_change), judged_if(impactor_judged, out.impactor_energy),
+       judged_if(structure_judged, out.structure_energy), part_of(out.energy_reference, out.interface_mismatch)});
+  if (!levels_.full()) out.energy = out.energy_change = not_judged;
+  if (!impactor_judged) out.impactor_energy = not_judged;
+  if (!structure_judged) out.structure_energy = not_judged;
 }
 
 }  // namespace grainstep::ledger

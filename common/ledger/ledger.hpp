@@ -41,6 +41,14 @@ struct Masses {
   double structure = 0.0;
 };
 
+/// Which books the sides keep (Ready.ledger). Of a side that keeps only those of the interface, its own closures and
+/// those of the whole are not judged, and are no numbers in a Balance.
+struct Levels {
+  wire::Ledger impactor = wire::FULL;
+  wire::Ledger structure = wire::FULL;
+  [[nodiscard]] bool full() const { return impactor == wire::FULL && structure == wire::FULL; }
+};
+
 /// The references, so that errors are parts of what is there, also where nothing moves at the start (a prescribed
 /// load): the energy of the start or, if larger, the most that has been supplied from outside so far (support work:
 /// never what an unstable exchange makes of itself); the momentum of the start - at least what each side would have if
@@ -51,14 +59,15 @@ class Ledger {
  public:
   /// The reports of window 0 (or of the window at which a run continues). `equal_steps`: one impactor step per window;
   /// then the impactor, too, has taken up between all earlier windows' impulse and this one's.
-  Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps, const Masses& masses = {});
+  Ledger(const wire::Report& impactor, const wire::Report& structure, bool equal_steps, const Masses& masses = {},
+         const Levels& levels = {});
 
   /// Both reports belong to one window, `handed_over` to the same; windows in order, for the references grow.
   [[nodiscard]] Balance close(const wire::Report& impactor, const wire::Report& structure,
                               const HandedOver& handed_over);
 
  private:
-  [[nodiscard]] Closure side(const wire::Momentum& now, const wire::Momentum& start) const;
+  [[nodiscard]] Closure side(const wire::Momentum& now, const wire::Momentum& start, wire::Ledger level) const;
   [[nodiscard]] double interface_excess(const Balance& balance, const HandedOver& handed_over) const;
   [[nodiscard]] double relative(double momentum) const;
   void close_energy(const wire::Report& impactor, const wire::Report& structure, std::uint64_t acting, Balance& out);
@@ -68,6 +77,7 @@ class Ledger {
   double impactor_start_energy_;   // J, less the work done on it
   double structure_start_energy_;  // the same
   bool equal_steps_;
+  Levels levels_;
   double initial_energy_;
   double supplied_ = 0.0;      // J
   double momentum_reference_;  // N s

@@ -1,5 +1,6 @@
 #include "ledger/load_history.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "base/assert.hpp"
@@ -9,9 +10,9 @@ namespace grainstep::ledger {
 LoadHistory::LoadHistory(SurfaceLoad surface, Clock clock, double loaded_area)
     : surface_(std::move(surface)),
       clock_(clock),
-      loaded_area_(loaded_area),
-      total_(2 * surface_.nodes(), 0.0),
-      latest_(2 * surface_.nodes(), 0.0) {}
+      loaded_area_(std::isfinite(loaded_area) ? loaded_area : surface_.area_of_face()),
+      total_(surface_.values(), 0.0),
+      latest_(surface_.values(), 0.0) {}
 
 void LoadHistory::watch(double time) {
   instants_.push_back(time);

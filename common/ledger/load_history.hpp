@@ -16,7 +16,7 @@ namespace grainstep::ledger {
 class LoadHistory {
  public:
   /// `window` in s; `steps`: impactor steps per window; `loaded_area`: 2 a b of what is modelled, m2, the area of
-  /// (4.4).
+  /// (4.4); not a number where nobody says it: then the area of the loaded face.
   struct Clock {
     double window;
     unsigned steps;
@@ -34,7 +34,7 @@ class LoadHistory {
   /// The watched instants that were passed: Pa s, in the order of watch(); NaN where the run has not come that far.
   [[nodiscard]] const std::vector<double>& watched() const { return watched_; }
 
-  /// Nodal impulse received up to t(n), N s, nodes x 2.
+  /// Nodal impulse received up to t(n), N s, nodes x dimension.
   [[nodiscard]] std::vector<double> received() const;
 
   [[nodiscard]] const SurfaceLoad& surface() const { return surface_; }

@@ -26,6 +26,10 @@ void Program::option(const std::string& name, const std::string& text, std::stri
   options_.push_back({.name = name, .text = text, .value = &value, .choices = std::move(choices)});
 }
 
+void Program::flag(const std::string& name, const std::string& text, bool& value) {
+  flags_.push_back({.name = name, .text = text, .value = &value});
+}
+
 std::optional<int> Program::parse(int argc, const char* const* argv) {
   CLI::App app(text_, name_);
   add_connect_options(app, connect_);
@@ -33,6 +37,7 @@ std::optional<int> Program::parse(int argc, const char* const* argv) {
     CLI::Option* added = app.add_option("--" + one.name, *one.value, one.text);
     if (!one.choices.empty()) added->check(CLI::IsMember(one.choices));
   }
+  for (Flag& one : flags_) app.add_flag("--" + one.name, *one.value, one.text);
   app.set_version_flag("--version", version_);
   try {
     app.parse(argc, argv);

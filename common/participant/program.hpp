@@ -27,6 +27,8 @@ class Program {
   void option(const std::string& name, const std::string& text, std::string& value,
               std::vector<std::string> choices = {});
 
+  void flag(const std::string& name, const std::string& text, bool& value);
+
   /// The exit code where the command line was answered already (--help, --version) or cannot be used (it was said why).
   [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv);
 
@@ -43,8 +45,14 @@ class Program {
     std::string* value;
     std::vector<std::string> choices;
   };
+  struct Flag {
+    std::string name;
+    std::string text;
+    bool* value;
+  };
   std::string name_, version_, text_;
   std::vector<Option> options_;
+  std::vector<Flag> flags_;
   ConnectOptions connect_;
 };
 

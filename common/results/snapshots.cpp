@@ -31,9 +31,10 @@ void Snapshots::add_arrays(const std::string& group, double time, const wire::Sn
                   .values = values_of(snapshot.position()),
                   .indices = {}});
   if (snapshot.cell_size() > 0) {
+    const std::size_t points = vtk::points_per_cell(snapshot);
     file_.add(Array{.dataset = group + "/cell",
-                    .meaning = {"", "points of every triangle"},
-                    .columns = 3,
+                    .meaning = {"", points == 3 ? "points of every triangle" : "points of every cell"},
+                    .columns = points,
                     .values = {},
                     .indices = {snapshot.cell().begin(), snapshot.cell().end()}});
   }

@@ -121,10 +121,36 @@ std::string particles(const wire::Snapshot& snapshot) {
   return document.finish("PolyData");
 }
 
+std::size_t points_per_cell(const wire::Snapshot& snapshot) {
+  switch (snapshot.cell_shape()) {
+    case wire::TETRAHEDRON:
+      return 4;
+    case wire::HEXAHEDRON:
+      return 8;
+    default:
+      return 3;
+  }
+}
+
+namespace {
+
+std::uint8_t vtk_type(wire::CellShape shape) {
+  switch (shape) {
+    case wire::TETRAHEDRON:
+      return 10;  // VTK_TETRA
+    case wire::HEXAHEDRON:
+      return 12;  // VTK_HEXAHEDRON
+    default:
+      return 5;  // VTK_TRIANGLE
+  }
+}
+
+}  // namespace
+
 std::string structure(const wire::Snapshot& snapshot) {
-  constexpr std::uint8_t triangle = 5;  // VTK_TRIANGLE
+  const std::size_t corners = points_per_cell(snapshot);
   const std::size_t points = static_cast<std::size_t>(snapshot.position_size()) / dimension_of(snapshot);
-  const std::size_t cells = static_cast<std::size_t>(snapshot.cell_size()) / 3;
+  const std::size_t cells = static_cast<std::size_t>(snapshot.cell_size()) / corners;
   Document document;
   document.text("<UnstructuredGrid>\n<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" +
                 std::to_string(cells) + "\">\n<PointData>\n");
@@ -136,8 +162,9 @@ std::string structure(const wire::Snapshot& snapshot) {
   document.text("<Cells>\n");
   document.array<std::int64_t>("connectivity", 1,
                                std::vector<std::int64_t>(snapshot.cell().begin(), snapshot.cell().end()));
-  document.array<std::int64_t>("offsets", 1, counted(cells, 3, 3));
-  document.array<std::uint8_t>("types", 1, std::vector<std::uint8_t>(cells, triangle));
+  document.array<std::int64_t>("offsets", 1,
+                               counted(cells, static_cast<std::int64_t>(corners), static_cast<std::int64_t>(corners)));
+  document.array<std::uint8_t>("types", 1, std::vector<std::uint8_t>(cells, vtk_type(snapshot.cell_shape())));
   document.text("</Cells>\n</Piece>\n</UnstructuredGrid>\n");
   return document.finish("UnstructuredGrid");
 }

@@ -16,7 +16,10 @@ namespace grainstep::results::vtk {
 /// Points with one vertex each and all point fields: PolyData (.vtp).
 [[nodiscard]] std::string particles(const wire::Snapshot& snapshot);
 
-/// Triangles with all point and cell fields: UnstructuredGrid (.vtu).
+/// Points of one cell: 3 of a triangle, 4 of a tetrahedron, 8 of a hexahedron.
+[[nodiscard]] std::size_t points_per_cell(const wire::Snapshot& snapshot);
+
+/// Cells with all point and cell fields: UnstructuredGrid (.vtu).
 [[nodiscard]] std::string structure(const wire::Snapshot& snapshot);
 
 /// A collection of files as one time series (.pvd).

@@ -1,5 +1,7 @@
 #include "scene/declaration.hpp"
 
+#include <google/protobuf/struct.pb.h>
+
 #include <cctype>
 
 #include "base/assert.hpp"
@@ -16,6 +18,13 @@ const options::Key& key_of(const FieldDescriptor& field) { return field.options(
 
 const options::Section& section_of(const Descriptor& message) {
   return message.options().GetExtension(options::section);
+}
+
+bool is_free(const FieldDescriptor& field) { return field.message_type() == google::protobuf::Struct::descriptor(); }
+
+bool is_section(const FieldDescriptor& field) {
+  return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !is_free(field) &&
+         !section_of(*field.message_type()).scalar_form();
 }
 
 std::vector<Word> words_of(const EnumDescriptor& type) {
@@ -86,7 +95,7 @@ std::string expected_value(const FieldDescriptor& field) {
     case FieldDescriptor::CPPTYPE_STRING:
       return "a text";
     case FieldDescriptor::CPPTYPE_MESSAGE:
-      return expected_section(*field.message_type());
+      return is_free(field) ? std::string("a map of keys") : expected_section(*field.message_type());
     default:
       return "a whole number";
   }

@@ -13,6 +13,11 @@ namespace grainstep::scene {
 [[nodiscard]] const options::Key& key_of(const google::protobuf::FieldDescriptor& field);
 [[nodiscard]] const options::Section& section_of(const google::protobuf::Descriptor& message);
 
+/// Settings that are not declared: any keys (free_settings.hpp).
+[[nodiscard]] bool is_free(const google::protobuf::FieldDescriptor& field);
+/// A map of declared keys.
+[[nodiscard]] bool is_section(const google::protobuf::FieldDescriptor& field);
+
 /// An enumerated word as it is written in a scene.
 struct Word {
   std::string word;

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "base/assert.hpp"
 #include "load/pressure_history.hpp"
 
 namespace grainstep::scene {
@@ -47,7 +46,9 @@ const Layer* yielding_layer(const Structure& structure) {
 }
 
 bool has_slug(const Scene& scene) {
-  return scene.impactor().type() != Impactor::TYPE_PRESSURE && scene.impactor().type() != Impactor::TYPE_NONE;
+  const Impactor& impactor = scene.impactor();
+  return impactor.type() == Impactor::TYPE_SLUG || impactor.type() == Impactor::TYPE_FOAM ||
+         (impactor.type() == Impactor::TYPE_EXTERNAL && impactor.has_slug());
 }
 
 Span loaded_face(const Structure& structure) {
@@ -66,7 +67,7 @@ double area(const Scene& scene, const Span& part) {
 }
 
 bool has_mirror(const Scene& scene) {
-  return scene.symmetry() != SYMMETRY_AXISYMMETRIC && scene.structure().extent() == Structure::EXTENT_HALF;
+  return scene.symmetry() == SYMMETRY_PLANE_STRAIN && scene.structure().extent() == Structure::EXTENT_HALF;
 }
 
 namespace {
@@ -80,7 +81,7 @@ void add_slug(const Scene& scene, std::optional<double> mass, Groups& g) {
   const double tail_speed = slug.has_tail_speed() ? slug.tail_speed() : slug.speed();
   g.areal_momentum = areal_momentum(rho_bar, rho_s, slug.height(), 0.5 * (slug.speed() + tail_speed));
   g.areal_mass_ratio = areal_mass_ratio(rho_bar, rho_s, slug.height(), g.areal_mass);
-  g.width_ratio = slug.half_width() / scene.structure().half_span();
+  if (scene.structure().has_half_span()) g.width_ratio = slug.half_width() / scene.structure().half_span();
   g.slug_time = slug.height() / slug.speed();
   // Speeds are linear in the height, so the first to arrive is of the head or, where it is faster, of the tail.
   const double of_head = slug.stand_off() / slug.speed();
@@ -111,17 +112,18 @@ void add_pressure(const Scene& scene, Groups& g) {
 
 Groups groups(const Scene& scene, std::optional<double> slug_mass) {
   const Structure& structure = scene.structure();
-  GS_ASSERT(structure.layers_size() > 0, "a structure without layers passed the loader");
   Groups g;
-  g.areal_mass = areal_mass(structure);
+  if (!structure.layers().empty()) g.areal_mass = areal_mass(structure);
   const Layer* metal = yielding_layer(structure);
-  if (metal != nullptr) {
+  if (metal != nullptr && structure.has_half_span()) {
     g.reference_time = reference_time(structure.half_span(), metal->density(), metal->yield_strength());
   }
-  g.loaded_width = loaded_face(structure).length();
-  g.loaded_area = area(scene, loaded_face(structure));
-  if (has_slug(scene)) add_slug(scene, slug_mass, g);
-  if (scene.impactor().type() == Impactor::TYPE_PRESSURE) add_pressure(scene, g);
+  if (structure.has_half_span()) {
+    g.loaded_width = loaded_face(structure).length();
+    g.loaded_area = area(scene, loaded_face(structure));
+  }
+  if (has_slug(scene) && scene.symmetry() != SYMMETRY_NONE) add_slug(scene, slug_mass, g);
+  if (scene.impactor().type() == Impactor::TYPE_PRESSURE && structure.has_half_span()) add_pressure(scene, g);
   if (metal != nullptr) {
     g.impulse_number = impulse_number(g.areal_momentum, g.areal_mass, metal->yield_strength(), metal->density());
   }

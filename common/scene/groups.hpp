@@ -51,7 +51,7 @@ inline constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 /// All of them for a scene.
 struct Groups {
   double areal_momentum = absent;      ///< I0, kg/(m s) or Pa s: of the particles that are there
-  double areal_mass = 0;               ///< m_b, kg/m^2
+  double areal_mass = absent;          ///< m_b, kg/m^2
   double impulse_number = absent;      ///< I_o
   double areal_mass_ratio = absent;    ///< m_bar
   double width_ratio = absent;         ///< a_bar = a/L
@@ -60,8 +60,8 @@ struct Groups {
   double slug_time = absent;           ///< H/v0, s: t_hat = 1; infinite for a slug at rest
   double arrival = 0;  ///< s: first contact with a structure at rest; stand_off/(v0 cos(angle)), or of a faster tail
   double slug_pressure = absent;  ///< rho_bar rho_s v0^2, Pa: what contact pressure is measured in
-  double loaded_width = 0;        ///< m, along x1, of what is modelled: 2a of (4.4), or a of a half model
-  double loaded_area = 0;         ///< m^2, of what is modelled: the width times b, or the disc or ring of it
+  double loaded_width = absent;   ///< m, along x1, of what is modelled: 2a of (4.4), or a of a half model
+  double loaded_area = absent;    ///< m^2, of what is modelled: the width times b, or the disc or ring of it
   double end = 0;                 ///< end of the run, s; not a number: a t_bar without a reference time
 };
 
@@ -88,7 +88,7 @@ struct Span {
 /// @param slug_mass kg, of the particles that were made, of what is modelled: their number is whole, so that it is not
 /// quite rho_bar rho_s times the slug's volume, and far from it where they are few. rho_bar rho_s of the groups is that
 /// mass over that volume. Absent: as the scene has it.
-/// @pre a checked scene (load_scene): it has a layer, and lengths and densities are positive.
+/// @pre a checked scene (load_scene): lengths and densities are positive.
 [[nodiscard]] Groups groups(const Scene& scene, std::optional<double> slug_mass = std::nullopt);
 
 }  // namespace grainstep::scene

@@ -31,10 +31,6 @@ std::uint64_t hash_of(const Message& message) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-bool is_section(const FieldDescriptor& field) {
-  return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !section_of(*field.message_type()).scalar_form();
-}
-
 /// Whether `field` alone says the same in both.
 bool same(const Message& one, const Message& other, const FieldDescriptor& field) {
   const auto only = [&field](const Message& from) {

@@ -3,6 +3,7 @@
 #include "base/assert.hpp"
 #include "base/error.hpp"
 #include "scene/declaration.hpp"
+#include "scene/free_settings.hpp"
 #include "scene/scalar.hpp"
 #include "scene/suggest.hpp"
 #include "scene/yaml.hpp"
@@ -109,10 +110,16 @@ class Reader {
   /// One value: of a key, or of one item of its list.
   void value(const Tree& tree, const std::string& path, Message& message, const FieldDescriptor& field) {
     GS_ASSERT(!field.is_map(), field.full_name() + ": scenes have no map fields");
+    if (is_free(field) && tree.kind != Tree::Kind::map) {
+      return problems_.add(tree.origin, path, found_instead(tree, expected_value(field)));
+    }
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
       const auto& reflection = *message.GetReflection();
       Message& part =
           field.is_repeated() ? *reflection.AddMessage(&message, &field) : *reflection.MutableMessage(&message, &field);
+      if (is_free(field)) {
+        return guarded(tree, path, [&] { part.CopyFrom(free_settings(tree)); });
+      }
       return section(tree, path, part);
     }
     if (tree.kind != Tree::Kind::scalar) {

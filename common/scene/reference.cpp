@@ -21,10 +21,6 @@ std::string in_a_table(const std::string& text) {
   return out;
 }
 
-bool is_section(const FieldDescriptor& field) {
-  return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !section_of(*field.message_type()).scalar_form();
-}
-
 std::string type_text(const FieldDescriptor& field) {
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
@@ -37,6 +33,7 @@ std::string type_text(const FieldDescriptor& field) {
     case FieldDescriptor::CPPTYPE_STRING:
       return "text";
     case FieldDescriptor::CPPTYPE_MESSAGE:
+      if (is_free(field)) return "any keys";
       return is_section(field) ? "section" : "see below";
     default:
       return "whole number";
@@ -63,7 +60,7 @@ std::string choices(const FieldDescriptor& field) {
   std::string text;
   if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
     for (const auto& word : words_of(*field.enum_type())) text += "  - " + code(word.word) + ": " + word.text + "\n";
-  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !is_section(field)) {
+  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !is_section(field) && !is_free(field)) {
     for (const auto* member : alternatives(*field.message_type())) {
       const std::string range = range_text(key_of(*member));
       const bool word = member->cpp_type() == FieldDescriptor::CPPTYPE_ENUM;

@@ -54,6 +54,26 @@ void slice_is_read(const Scene& scene, Findings& findings) {
                       "axisymmetric, or leave this out"});
 }
 
+void deck_is_one(const Deck& deck, Findings& findings) {
+  if (deck.file().empty() == deck.text().empty()) {
+    findings.push_back({Severity::error, "impactor.deck", "expected either `file` or `text`: the script"});
+  }
+  if (!deck.has_contact()) {
+    findings.push_back(
+        {Severity::error, "impactor.deck", "required key 'contact' is missing: how its particles touch the structure"});
+  }
+}
+
+/// What a structure of ours needs. One of one's own may leave it out, and has then no dimensionless groups.
+void structure_is_described(const Structure& structure, Findings& findings) {
+  if (structure.type() == Structure::TYPE_EXTERNAL) return;
+  const auto missing = [&findings](const char* key, const char* what) {
+    findings.push_back({Severity::error, "structure", std::string("required key '") + key + "' is missing: " + what});
+  };
+  if (!structure.has_half_span()) missing("half_span", "Half span; of a circular plate its radius R.");
+  if (structure.layers().empty()) missing("layers", "From the loaded face to the back face, at least one.");
+}
+
 /// What a type of impactor needs, and what it would not read. A slug may stay: scenes inherit it from what they
 /// include.
 void impactor_is_described(const Impactor& impactor, bool slug, Findings& findings) {
@@ -61,6 +81,14 @@ void impactor_is_described(const Impactor& impactor, bool slug, Findings& findin
     findings.push_back({Severity::error, "impactor",
                         "required key 'slug' is missing: what hits, unless impactor.type is pressure or none"});
   }
+  const bool deck = impactor.type() == Impactor::TYPE_DECK;
+  if (deck != impactor.has_deck()) {
+    findings.push_back(
+        deck ? Finding{Severity::error, "impactor", "required key 'deck' is missing: impactor.type is deck, but which?"}
+             : Finding{Severity::error, "impactor.deck",
+                       "nobody would read it: impactor.type is not deck; set it, or leave this out"});
+  }
+  if (deck && impactor.has_deck()) deck_is_one(impactor.deck(), findings);
   const bool pressure = impactor.type() == Impactor::TYPE_PRESSURE;
   if (pressure && !impactor.has_pressure()) {
     findings.push_back(
@@ -140,6 +168,11 @@ void motion_is_read(const Structure& structure, Findings& findings) {
 void symmetry_fits(const Scene& scene, Findings& findings) {
   const bool ring = scene.symmetry() == SYMMETRY_AXISYMMETRIC;
   const Structure& structure = scene.structure();
+  if (scene.symmetry() == SYMMETRY_NONE && structure.type() != Structure::TYPE_EXTERNAL) {
+    findings.push_back({Severity::error, "symmetry",
+                        "none is for structures of the type external: ours compute in plane strain, or as solids of "
+                        "revolution"});
+  }
   if (ring && structure.type() == Structure::TYPE_BEAM) {
     findings.push_back({Severity::error, "structure.type",
                         "a beam is not a solid of revolution; with symmetry: axisymmetric take plate or rigid"});
@@ -223,6 +256,7 @@ void core_is_described(const Scene& scene, int index, Findings& findings) {
 std::vector<Finding> check_rules(const Scene& scene) {
   Findings findings;
   const bool slug = has_slug(scene);
+  structure_is_described(scene.structure(), findings);
   impactor_is_described(scene.impactor(), slug, findings);
   if (scene.impactor().pressure().has_tabulated()) table_is_one(scene.impactor().pressure().tabulated(), findings);
   if (slug && scene.impactor().has_slug()) sizes_are_described(scene.impactor().slug(), findings);
@@ -232,13 +266,14 @@ std::vector<Finding> check_rules(const Scene& scene) {
   if (slug) {
     foam ? check_foam(scene, findings) : slug_holds_particles(scene, findings);
     slice_is_read(scene, findings);
-    check_encounter(scene, findings);
+    if (scene.structure().has_half_span()) check_encounter(scene, findings);
   }
   const Pressure& pressure = scene.impactor().pressure();
-  covers_a_part({pressure.has_patch(), pressure.patch(), loaded_face(scene.structure()), "the loaded face"},
+  covers_a_part({pressure.has_patch() && scene.structure().has_half_span(), pressure.patch(),
+                 loaded_face(scene.structure()), "the loaded face"},
                 "impactor.pressure.patch", findings);
   motion_is_read(scene.structure(), findings);
-  check_bulk_viscosity(scene, findings);
+  if (!scene.structure().layers().empty()) check_bulk_viscosity(scene, findings);
   symmetry_fits(scene, findings);
   velocities_apply(scene.structure(), findings);
   for (int i = 0; i < scene.structure().layers_size(); ++i) core_is_described(scene, i, findings);

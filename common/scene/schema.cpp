@@ -56,6 +56,7 @@ Json value_schema(const FieldDescriptor& field) {
     case FieldDescriptor::CPPTYPE_STRING:
       return {{"type", Json::array({"string", "number", "boolean"})}};
     case FieldDescriptor::CPPTYPE_MESSAGE:
+      if (is_free(field)) return {{"type", "object"}};
       if (section_of(*field.message_type()).scalar_form()) return alternative_schema(*field.message_type());
       return {{"allOf", Json::array({{{"$ref", "#/definitions/" + field.message_type()->full_name()}}})}};
     case FieldDescriptor::CPPTYPE_UINT32:
@@ -103,7 +104,7 @@ Json object_schema(const Descriptor& message) {
 void define(const Descriptor& message, Json& definitions) {
   for (int i = 0; i < message.field_count(); ++i) {
     const auto* part = message.field(i)->message_type();
-    if (part == nullptr || section_of(*part).scalar_form() || definitions.contains(part->full_name())) continue;
+    if (part == nullptr || !is_section(*message.field(i)) || definitions.contains(part->full_name())) continue;
     definitions[part->full_name()] = object_schema(*part);
     define(*part, definitions);
   }

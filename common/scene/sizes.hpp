@@ -24,6 +24,13 @@ class Sizes {
   /// @pre the distribution keeps size_problems()'s rules. `dimension`: 2 for discs, 3 for spheres.
   Sizes(const Slug& slug, int dimension);
 
+  /// All sizes between two alike.
+  [[nodiscard]] static Sizes between(double from, double to) {
+    Sizes out;
+    out.classes_ = {{from, to, 1.0}};
+    return out;
+  }
+
   [[nodiscard]] bool equal() const { return smallest() == largest(); }
   [[nodiscard]] double smallest() const { return classes_.front().from; }
   [[nodiscard]] double largest() const { return classes_.back().to; }

@@ -38,7 +38,7 @@ void walk(const Message& message, const std::string& path, Findings& findings) {
   for (const FieldDescriptor* field : present) {
     const bool alternative = section_of(*message.GetDescriptor()).scalar_form();
     const std::string at = alternative ? path : join_path(path, field->name());
-    const bool section = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+    const bool section = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !is_free(*field);
     const bool number = field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE;
     const std::size_t before = findings.size();
     for (int i = 0; field->is_repeated() && i < reflection.FieldSize(message, field); ++i) {

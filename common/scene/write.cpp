@@ -1,9 +1,9 @@
-#include <nlohmann/json.hpp>
-
 #include "base/assert.hpp"
 #include "base/number_text.hpp"
 #include "scene/declaration.hpp"
+#include "scene/free_settings.hpp"
 #include "scene/load.hpp"
+#include "scene/quoted.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -11,31 +11,6 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using Lines = std::vector<std::string>;
-
-/// Characters that JSON writes as they are, but YAML does not read or takes for the end of a line: their bytes and
-/// their escapes.
-std::vector<std::pair<std::string, std::string>> unreadable() {
-  std::vector<std::pair<std::string, std::string>> all{{"\x7f", "\\x7F"},           {"\u2028", "\\u2028"},
-                                                       {"\u2029", "\\u2029"},       {"\xef\xbb\xbf", "\\uFEFF"},
-                                                       {"\xef\xbf\xbe", "\\uFFFE"}, {"\xef\xbf\xbf", "\\uFFFF"}};
-  for (int c = 0x80; c < 0xa0; ++c) {  // control characters of Latin-1
-    const std::string hex = std::string(c < 0x90 ? "8" : "9") + "0123456789ABCDEF"[c & 0xf];
-    all.emplace_back(std::string("\xc2") + static_cast<char>(c), "\\x" + hex);
-  }
-  return all;
-}
-
-/// A YAML text in quotation marks: JSON's, with some escapes more.
-std::string quoted(const std::string& text) {
-  static const auto escapes = unreadable();
-  std::string yaml = nlohmann::json(text).dump();
-  for (const auto& [bytes, escape] : escapes) {
-    for (auto at = yaml.find(bytes); at != std::string::npos; at = yaml.find(bytes, at)) {
-      yaml.replace(at, bytes.size(), escape);
-    }
-  }
-  return yaml;
-}
 
 /// One value of `field`; `index` counts the items of a repeated field and is ignored otherwise. Empty: nothing to
 /// write.
@@ -105,6 +80,10 @@ Lines field_lines(const Message& message, const FieldDescriptor& field) {
   const auto& reflection = *message.GetReflection();
   if (field.is_repeated()) return list_lines(message, field);
   if (field.has_presence() && !reflection.HasField(message, &field)) return {};
+  if (is_free(field)) {
+    const auto& settings = static_cast<const google::protobuf::Struct&>(reflection.GetMessage(message, &field));
+    return {field.name() + ": " + to_yaml(settings)};
+  }
   if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
     return labelled(field.name(), reflection.GetMessage(message, &field));
   }

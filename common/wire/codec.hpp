@@ -52,6 +52,13 @@ inline constexpr Envelope::BodyCase kind_of<Finished> = Envelope::kFinished;
 template <>
 inline constexpr Envelope::BodyCase kind_of<Error> = Envelope::kError;
 
+template <>
+inline constexpr Envelope::BodyCase kind_of<Save> = Envelope::kSave;
+template <>
+inline constexpr Envelope::BodyCase kind_of<State> = Envelope::kState;
+template <>
+inline constexpr Envelope::BodyCase kind_of<Saved> = Envelope::kSaved;
+
 template <class Message>
 concept Body = kind_of<Message>
 != Envelope::BODY_NOT_SET;

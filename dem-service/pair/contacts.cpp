@@ -10,9 +10,13 @@
 namespace grainstep::dem {
 
 // Defined by the copies of kernel.cpp.
+#if defined(__x86_64__)
 extern const PairKernels pair_kernels_x86_64;
 extern const PairKernels pair_kernels_x86_64_v3;
 extern const PairKernels pair_kernels_x86_64_v4;
+#else
+extern const PairKernels pair_kernels_generic;
+#endif
 
 namespace {
 
@@ -20,9 +24,13 @@ constexpr std::uint32_t no_pair = std::numeric_limits<std::uint32_t>::max();
 
 std::vector<const PairKernels*> detect() {
   std::vector<const PairKernels*> found;
+#if defined(__x86_64__)
   if (x86_level() >= X86Level::v4) found.push_back(&pair_kernels_x86_64_v4);
   if (x86_level() >= X86Level::v3) found.push_back(&pair_kernels_x86_64_v3);
   found.push_back(&pair_kernels_x86_64);
+#else
+  found.push_back(&pair_kernels_generic);
+#endif
   return found;
 }
 

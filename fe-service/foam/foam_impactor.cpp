@@ -1,48 +1,44 @@
 #include "fe-service/foam/foam_impactor.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "fe-service/deformable.hpp"
+#include "fe-service/preview.hpp"
+#include "participant/hello.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::fe {
 
 wire::Hello FoamImpactor::describe() const {
-  wire::Hello hello;
-  hello.set_protocol(wire::PROTOCOL_VERSION);
-  hello.set_role(wire::IMPACTOR);
-  hello.set_backend(std::string("grainstep-fe (foam projectile, ") + available_kernels().front()->name + ")");
-  hello.set_version(GRAINSTEP_VERSION);
-  hello.set_dimension(2);
+  wire::Hello hello = participant::hello(
+      wire::IMPACTOR, std::string("grainstep-fe (foam projectile, ") + available_kernels().front()->name + ")",
+      GRAINSTEP_VERSION, {2});
   for (const char* capability : {"foam", "plane_strain", "axisymmetric"}) hello.add_capabilities(capability);
-  hello.set_process(static_cast<std::uint64_t>(getpid()));
   return hello;
 }
 
 wire::Ready FoamImpactor::prepare(const wire::Setup& setup) {
   if (!setup.has_impactor()) throw InputError("setup: started as an impactor, but was sent a structure's part");
   const scene::Impactor& impactor = setup.impactor().impactor();
+  const FoamSetting setting{setup.symmetry(), setup.depth(), setup.mirror()};
+  wire::Ready ready = preview_foam(impactor, setting).ready();
+  ready.set_scene_hash(setup.scene_hash());
+  if (setup.preview()) return ready;
   guards_ = setup.impactor().guards();
-  model_ = make_foam_model(impactor, {setup.symmetry(), setup.depth(), setup.mirror()});
+  model_ = make_foam_model(impactor, setting);
   surface_.emplace(setup.impactor().surface());
   body_.emplace(make_block(*model_, surface_->now()));
   contact_.emplace(*model_, *body_);
   nodal_.assign(surface_->node_count(), {});
   stable_step_ = undeformed_step_ = body_->stable_step();
-  wire::Ready ready;
-  ready.set_scene_hash(setup.scene_hash());
   ready.set_stable_step(stable_step_in_touch(*model_, *body_, stable_step_));
   ready.set_preferred_step(preferred_foam_step(*model_, ready.stable_step()));
   ready.set_contact_time(kFoamStepsPerContact * ready.preferred_step());
   ready.set_longest_window(kFoamStepsPerWindow * ready.preferred_step());
-  ready.set_size(body_->mesh().triangles());
   ready.set_mass(body_->mass());
   ready.set_contact_mass(heaviest_of_face(*body_));
-  ready.set_memory(body_->memory_bytes());
   return ready;
 }
 

@@ -8,8 +8,8 @@
 namespace grainstep::fe {
 
 LoadedPatch::LoadedPatch(const wire::Surface& surface, const scene::Pressure& pressure) {
-  for (int s = 0; s + 1 < surface.segment_size(); s += 2) {
-    const std::uint32_t nodes[] = {surface.segment(s), surface.segment(s + 1)};
+  for (int s = 0; s + 1 < surface.facet_size(); s += 2) {
+    const std::uint32_t nodes[] = {surface.facet(s), surface.facet(s + 1)};
     const auto at = [&](int end) {
       const int i = static_cast<int>(2 * nodes[end]);
       if (i + 1 >= surface.position_size()) throw InputError("surface: a segment names a node without a position");

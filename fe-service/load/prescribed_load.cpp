@@ -1,26 +1,20 @@
 #include "fe-service/load/prescribed_load.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "base/error.hpp"
 #include "fe-service/solid.hpp"
 #include "fe-service/windows.hpp"
 #include "load/pressure_history.hpp"
+#include "participant/hello.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::fe {
+
 wire::Hello PrescribedLoad::describe() const {
-  wire::Hello hello;
-  hello.set_protocol(wire::PROTOCOL_VERSION);
-  hello.set_role(wire::IMPACTOR);
-  hello.set_backend("grainstep-fe (prescribed load)");
-  hello.set_version(GRAINSTEP_VERSION);
-  hello.set_dimension(2);
+  wire::Hello hello = participant::hello(wire::IMPACTOR, "grainstep-fe (prescribed load)", GRAINSTEP_VERSION, {2});
   for (const char* capability : {"pressure", "none", "plane_strain", "axisymmetric"})
     hello.add_capabilities(capability);
-  hello.set_process(static_cast<std::uint64_t>(getpid()));
   return hello;
 }
 
@@ -30,7 +24,7 @@ wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
   const wire::Surface& surface = setup.impactor().surface();
   if (impactor.type() == scene::Impactor::TYPE_PRESSURE) {
     pressure_ = impactor.pressure();
-    patch_.emplace(surface, impactor.pressure());
+    if (!setup.preview()) patch_.emplace(surface, impactor.pressure());
   } else if (impactor.type() != scene::Impactor::TYPE_NONE) {
     throw InputError(
         "impactor.type: grainstep-fe plays `foam`, `pressure` and `none`; a slug is computed by grainstep-dem");
@@ -44,6 +38,9 @@ wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
   ready.set_scene_hash(setup.scene_hash());
   ready.set_stable_step(participant::no_step_limit);
   ready.set_preferred_step(participant::no_step_limit);
+  ready.set_counted("particles");
+  ready.set_ledger(wire::FULL);
+  participant::add_fact(ready, "particles", "0: a prescribed load, which has no step of its own");
   return ready;
 }
 

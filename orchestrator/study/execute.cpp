@@ -124,12 +124,14 @@ class Executor {
     const fs::path scene = directory / "scene.yaml";
     results::write_atomically(
         scene, "# Point '" + point.id + "' of " + plan_.file.filename().string() + "\n" + point.preparation.yaml);
+    std::vector<std::string> arguments = {"run",     scene.string(), "--out",   directory.string(),
+                                          "--force", "--quiet",      "--ranks", std::to_string(how_.ranks)};
+    if (how_.allow_program) arguments.emplace_back("--allow-program");
+    if (how_.allow_deck) arguments.emplace_back("--allow-deck");
     run.process = std::make_unique<process::ChildProcess>(
         point.id,
-        process::Command{.program = process::find_program("grainstep"),
-                         .arguments = {"run", scene.string(), "--out", directory.string(), "--force", "--quiet",
-                                       "--ranks", std::to_string(how_.ranks)},
-                         .environment = {}},
+        process::Command{
+            .program = process::find_program("grainstep"), .arguments = std::move(arguments), .environment = {}},
         run.log);
     const int descriptor = run.process->descriptor();
     loop_.add(descriptor, [this, &run, descriptor] {

@@ -16,6 +16,8 @@ namespace grainstep::study {
 struct Execution {
   int jobs = 1;   ///< runs at a time
   int ranks = 1;  ///< MPI ranks of every impactor
+  bool allow_program = false;
+  bool allow_deck = false;
   orchestrator::Progress::Style progress = orchestrator::Progress::Style::quiet;
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <utility>
 
+#include "orchestrator/participants.hpp"
 #include "orchestrator/summary.hpp"
 #include "scene/load.hpp"
 #include "study/complaints.hpp"
@@ -26,8 +28,8 @@ struct Draft {
 
 class Expander {
  public:
-  Expander(Plan& plan, Fidelity fidelity, Complaints& complaints)
-      : plan_(plan), fidelity_(fidelity), complaints_(complaints) {}
+  Expander(Plan& plan, Fidelity fidelity, const orchestrator::RunOptions& options, Complaints& complaints)
+      : plan_(plan), fidelity_(fidelity), options_(options), complaints_(complaints) {}
 
   void all() {
     for (int i = 0; i < plan_.study.series_size(); ++i) series(i);
@@ -143,24 +145,36 @@ class Expander {
     try {
       scene::Scene scene = scene::load_scene(file, draft.set);
       try {
-        point.preparation = orchestrator::prepare(std::move(scene), {});
-      } catch (const InputError& error) {  // of a backend's preview, which knows no files
+        point.preparation = orchestrator::prepare_unasked(std::move(scene), options_);
+        ask(point);
+      } catch (const InputError& error) {  // of a participant, which knows no files
         throw InputError(scene::problem_line(origin(draft.scene), "point '" + point.id + "'", error.what()));
       }
     } catch (const InputError& error) {
       return complaints_.add(error.what());
     }
     point.key = orchestrator::hash_text(scene::essence_hash(point.preparation.scene));
-    if (const auto cost = orchestrator::cost_of(point.preparation))
-      point.estimate = std::max(cost->impactor, cost->structure);
-    if (!point.preparation.plan) {
-      complaints_.add(origin(draft.scene), draft.scene,
-                      "point '" + point.id + "' has an external participant, which a study cannot start");
+  }
+
+  void ask(PlannedPoint& point) {
+    for (const wire::Role role : {wire::IMPACTOR, wire::STRUCTURE}) {
+      if (orchestrator::is_external(role, point.preparation.scene, options_)) {
+        throw InputError("has an external participant, which a study cannot start");
+      }
     }
+    if (asked_++ < most_asked) {
+      orchestrator::ask_participants(point.preparation, options_);
+      const auto cost = orchestrator::cost_of(point.preparation);
+      if (cost) last_estimate_ = std::max(cost->impactor, cost->structure);
+    }
+    point.estimate = last_estimate_;
   }
 
   Plan& plan_;
   Fidelity fidelity_;
+  const orchestrator::RunOptions& options_;
+  std::size_t asked_ = 0;
+  double last_estimate_ = 0.0;
   Complaints& complaints_;
   std::set<std::string> series_names_;
   std::set<std::string> point_names_;
@@ -183,12 +197,12 @@ std::string slug(const std::string& name) {
   return out.substr(0, 120);
 }
 
-Plan load_plan(const fs::path& file, Fidelity fidelity) {
+Plan load_plan(const fs::path& file, Fidelity fidelity, const orchestrator::RunOptions& options) {
   Plan plan;
   plan.file = file;
   plan.tree = scene::load(file, {}, plan.study);
   Complaints complaints;
-  Expander(plan, fidelity, complaints).all();
+  Expander(plan, fidelity, options, complaints).all();
   complaints.throw_if_any();
   check_names(plan, complaints);
   complaints.throw_if_any();

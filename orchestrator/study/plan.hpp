@@ -20,7 +20,7 @@ struct PlannedPoint {
   bool is_long = false;
   orchestrator::Preparation preparation;
   std::string key;        ///< the same for the same scene, see essence_hash()
-  double estimate = 0.0;  ///< s, of the slower side on a core of its own
+  double estimate = 0.0;  ///< s, of the slower side on a core of its own; of points that were not asked the last one's
 };
 
 struct Plan {
@@ -35,8 +35,14 @@ enum class Fidelity {
   full          ///< with its `full` overrides
 };
 
+/// Points whose participants are asked beforehand what they cost and whether they can compute them; those beyond are
+/// asked when they run, and are taken to cost what the last one did.
+inline constexpr std::size_t most_asked = 64;
+
 /// Reads the study and prepares all of its points. @throws InputError with everything that is wrong, one line each.
-[[nodiscard]] Plan load_plan(const std::filesystem::path& file, Fidelity fidelity = Fidelity::recommended);
+/// `options`: of every run.
+[[nodiscard]] Plan load_plan(const std::filesystem::path& file, Fidelity fidelity = Fidelity::recommended,
+                             const orchestrator::RunOptions& options = {});
 
 /// The point called `id`; nullptr: there is none.
 [[nodiscard]] const PlannedPoint* point_of(const Plan& plan, const std::string& id);

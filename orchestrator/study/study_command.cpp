@@ -108,6 +108,8 @@ Execution execution_of(const StudyOptions& options) {
   const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
   return {.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(cores),
           .ranks = options.ranks,
+          .allow_program = options.allow_program,
+          .allow_deck = options.allow_deck,
           .progress = orchestrator::Progress::style_for(stdout, options.quiet)};
 }
 
@@ -130,7 +132,10 @@ int report_on(const Plan& plan, const StudyOptions& options, const fs::path& roo
 }  // namespace
 
 int study(const StudyOptions& options) {
-  const Plan plan = load_plan(options.study, options.full ? Fidelity::full : Fidelity::recommended);
+  orchestrator::RunOptions of_runs;
+  of_runs.allow_program = options.allow_program;
+  of_runs.allow_deck = options.allow_deck;
+  const Plan plan = load_plan(options.study, options.full ? Fidelity::full : Fidelity::recommended, of_runs);
   const fs::path root = root_of(options);
   for (const fs::path& other : options.reuse) {
     std::error_code ignored;

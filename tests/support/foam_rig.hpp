@@ -51,6 +51,8 @@ class FoamRig final : public participant::ImpactorLink {
     scene::Symmetry symmetry = scene::SYMMETRY_PLANE_STRAIN;  ///< of revolution: the face is a disc, mirror is not read
   };
 
+  double element_quality = 0.01;  ///< the guard's limit
+
   FoamRig() = default;
   explicit FoamRig(Motion motion) : motion_(std::move(motion)) {}
 
@@ -62,13 +64,14 @@ class FoamRig final : public participant::ImpactorLink {
     setup.set_scene_hash(7);
     setup.set_mirror(mirror && !ring());
     *setup.mutable_impactor()->mutable_impactor() = impactor;
-    setup.mutable_impactor()->mutable_guards()->set_element_quality(0.01);
+    setup.mutable_impactor()->mutable_guards()->set_element_quality(element_quality);
     wire::Surface& surface = *setup.mutable_impactor()->mutable_surface();
     for (const double x : places()) {
       for (const double value : {x, motion_.height(0.0)}) surface.add_position(value);
       for (int c = 0; c < 2; ++c) surface.add_velocity(0.0);
     }
-    for (const std::uint32_t node : {0U, 1U, 1U, 2U}) surface.add_segment(node);
+    surface.set_dimension(2);
+    for (const std::uint32_t node : {0U, 1U, 1U, 2U}) surface.add_facet(node);
     FoamImpactor foam;
     ready = foam.prepare(setup);
     window = steps * ready.preferred_step() / motion_.finer;

@@ -9,9 +9,10 @@
 #include "fe-service/impactor.hpp"
 #include "fe-service/structure.hpp"
 #include "orchestrator/conduct.hpp"
-#include "orchestrator/participants.hpp"
 #include "orchestrator/preparation.hpp"
 #include "participant/serve.hpp"
+#include "scene/load.hpp"
+#include "scene/needs.hpp"
 #include "transport/in_process_channel.hpp"
 
 namespace {
@@ -20,13 +21,14 @@ using grainstep::transport::Channel;
 
 int run(const grainstep::orchestrator::RunOptions& options) {
   using namespace grainstep;
-  const auto preparation = orchestrator::prepare(options);
+  const auto preparation =
+      orchestrator::prepare_unasked(scene::load_scene(options.scene.scene, options.scene.set), options);
   const results::RunDirectory directory(options.out);
   const results::DirectoryLock lock = directory.prepare(results::Existing::refuse);
   auto [impactor, impactor_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "impactor"});
   auto [structure, structure_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "structure"});
   std::thread particles([&preparation, end = std::move(impactor_end)] {
-    if (!orchestrator::has_particles(preparation.scene)) {
+    if (!scene::program_of(preparation.scene, wire::IMPACTOR).ranks) {
       fe::Impactor backend;
       return static_cast<void>(participant::serve_impactor(*end, backend));
     }

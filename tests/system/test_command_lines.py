@@ -1,7 +1,7 @@
 """What the programs say to command lines that cannot be meant: what was wrong, and what to write instead."""
 import unittest
 
-from runs import BIN, PATIENCE, QUICK, SOURCE, pathlib, subprocess, tempfile
+from runs import BIN, PATIENCE, QUICK, SOURCE, os, pathlib, subprocess, tempfile
 
 STUDY = SOURCE / "configs/studies/liu2013-fig04.yaml"
 PROGRAMS = ("grainstep", "grainstep-fe", "grainstep-dem", "grainstep-keys", "grainstep-docs")
@@ -85,13 +85,13 @@ class CommandLines(unittest.TestCase):
             self.refused(program, "--connect", "127.0.0.1:5555", text="did you mean tcp://127.0.0.1:5555?", lines=1)
             self.refused(program, "--connect", "/run/socket", text="did you mean ipc:///run/socket?", lines=1)
 
-        example = subprocess.run([SOURCE / "tools/example_participant.py", "--connect", "127.0.0.1:5555"], capture_output=True,
-                                 text=True, timeout=PATIENCE)
+        example = subprocess.run([SOURCE / "examples/python/spring.py", "--connect", "127.0.0.1:5555"], capture_output=True,
+                                 text=True, timeout=PATIENCE, env={**os.environ, "PYTHONPATH": str(BIN.parent / "python")})
         self.assertEqual(example.returncode, 2)
-        self.assertIn("expected ipc:///PATH or tcp://HOST:PORT", example.stderr)
+        self.assertIn("did you mean tcp://127.0.0.1:5555? expected ipc:///PATH or tcp://HOST:PORT", example.stderr)
 
     def test_scripts_run_with_debians_python(self):
-        for script in sorted((SOURCE / "tools").iterdir()) + sorted((SOURCE / "bench").iterdir()):
+        for script in sorted(file for place in ("tools", "bench", "examples/python") for file in (SOURCE / place).iterdir()):
             first = script.read_bytes().split(b"\n", 1)[0] if script.is_file() else b""
             if b"python" in first:
                 self.assertEqual(first, b"#!/usr/bin/python3", script)

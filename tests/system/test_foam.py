@@ -65,7 +65,7 @@ class Foam(unittest.TestCase):
         self.assertIn("foam elements            13200", checked.stdout)
         with Run(*FOAM, "--ranks", "2") as run:
             self.assertEqual(run.end().code, 2)
-            self.assertIn("without particles is one process", run.stderr)
+            self.assertIn("this impactor is one process", run.stderr)
 
 
 if __name__ == "__main__":

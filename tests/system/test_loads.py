@@ -181,7 +181,7 @@ class SameLoad(unittest.TestCase):
     def test_ranks_are_refused(self):
         with Run("--ranks", "2", scene=LOADS / "free-mass.yaml") as run:
             self.assertEqual(run.end().code, 2)
-            self.assertIn("--ranks 2: an impactor without particles is one process", run.stderr)
+            self.assertIn("--ranks 2: this impactor is one process", run.stderr)
 
 
 if __name__ == "__main__":

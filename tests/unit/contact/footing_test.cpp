@@ -18,8 +18,8 @@ MovingSurface surface_of(const std::vector<Vec2>& nodes) {
     message.add_velocity(0.3 * std::sin(3.0 * i));
     message.add_velocity(0.4 * std::cos(2.0 * i));
     if (i == 0) continue;
-    message.add_segment(i - 1);
-    message.add_segment(i);
+    message.add_facet(i - 1);
+    message.add_facet(i);
   }
   return MovingSurface(message);
 }

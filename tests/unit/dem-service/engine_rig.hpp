@@ -50,8 +50,8 @@ inline void set_surface(wire::Setup& setup, const std::vector<Vec2>& nodes) {
     for (const double x : nodes[i].c) surface.add_position(x);
     for (int c = 0; c < 2; ++c) surface.add_velocity(0.0);
     if (i == 0) continue;
-    surface.add_segment(static_cast<std::uint32_t>(i - 1));
-    surface.add_segment(static_cast<std::uint32_t>(i));
+    surface.add_facet(static_cast<std::uint32_t>(i - 1));
+    surface.add_facet(static_cast<std::uint32_t>(i));
   }
 }
 

@@ -142,7 +142,7 @@ TEST(Impactor, DescribesAndPreparesItself) {
   const wire::Setup setup = small_slug();
   const auto impactor = make_impactor(alone());
   EXPECT_EQ(impactor->describe().role(), wire::IMPACTOR);
-  EXPECT_EQ(impactor->describe().dimension(), 2U);
+  EXPECT_EQ(impactor->describe().dimension(0), 2U);
   const wire::Ready ready = impactor->prepare(setup);
   const SlugModel model = model_of(setup);
   EXPECT_EQ(ready.size(), model.particles);

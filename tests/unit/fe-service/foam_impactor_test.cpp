@@ -6,6 +6,7 @@
 
 #include "../../support/foam_rig.hpp"
 #include "base/error.hpp"
+#include "fe-service/preview.hpp"
 
 namespace grainstep::fe {
 namespace {
@@ -33,7 +34,34 @@ FoamRig::Motion of_revolution(double speed = 0.0) {
   return {.height = [speed](double t) { return speed * t; }, .symmetry = scene::SYMMETRY_AXISYMMETRIC};
 }
 
+// The plan of a run is made with the one, the run itself with the other.
+TEST(FoamImpactor, SaysTheSameInAPreviewAndWithItsModelBuilt) {
+  FoamRig rig;
+  rig.run(coarse_foam(), 1e-7);
+  const wire::Ready previewed = preview_foam(coarse_foam(), {scene::SYMMETRY_PLANE_STRAIN, 1e-3, true}).ready();
+  for (const wire::Ready& ready : {rig.ready, previewed}) {
+    EXPECT_DOUBLE_EQ(ready.longest_window(), kFoamStepsPerWindow * ready.preferred_step());
+    EXPECT_DOUBLE_EQ(ready.contact_time(), kFoamStepsPerContact * ready.preferred_step());
+  }
+  EXPECT_NEAR(previewed.preferred_step() / rig.ready.preferred_step(), 1.0, 1e-9);
+  EXPECT_EQ(previewed.size(), rig.ready.size());
+  EXPECT_EQ(previewed.counted(), "elements");
+}
+
 constexpr double event = 0.9e-3;  // s: until the block has left the wall
+
+// On its way to locking every element is pressed together by far more than this.
+TEST(FoamImpactor, AnElementThatCollapsesEndsTheRun) {
+  FoamRig rig;
+  rig.element_quality = 0.9;
+  try {
+    rig.run(coarse_foam(), event);
+    FAIL() << "nothing was said";
+  } catch (const NumericalError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("0.9"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("impactor.foam.elements"));
+  }
+}
 
 /// Momentum within round-off, energy within 1e-3, in every report of what the face has felt.
 void expect_ledgers_close(const FoamRig& rig) {

@@ -23,8 +23,8 @@ wire::Surface face() {
   surface.add_position(1.0);
   surface.add_position(-0.2);
   for (std::uint32_t k = 0; k < 5; ++k) {
-    surface.add_segment(k);
-    surface.add_segment(k + 1);
+    surface.add_facet(k);
+    surface.add_facet(k + 1);
   }
   return surface;
 }

@@ -36,7 +36,7 @@ class Rig final : public participant::ImpactorLink {
     wire::Surface& surface = *setup.mutable_impactor()->mutable_surface();
     for (const double value : nodes(height_(0.0))) surface.add_position(value);
     for (const double value : nodes(0.0)) surface.add_velocity(0.0 * value);
-    for (const std::uint32_t node : {0U, 1U, 1U, 2U}) surface.add_segment(node);
+    for (const std::uint32_t node : {0U, 1U, 1U, 2U}) surface.add_facet(node);
     PrescribedLoad load;
     ready = load.prepare(setup);
     load.run(start_, *this);

@@ -24,6 +24,24 @@ TEST(Preview, AgreesWithTheModelItDescribes) {
   EXPECT_EQ(found.memory_bytes, ready.memory());
 }
 
+// The plan that `check` shows is made with these; a run makes its own with the model's.
+TEST(Preview, KnowsTheMassOfASurfaceNodeAndTheSurface) {
+  for (const auto extent : {scene::Structure::EXTENT_HALF, scene::Structure::EXTENT_FULL}) {
+    scene::Structure beam = kSmallBeam;
+    beam.set_extent(extent);
+    wire::Setup setup = setup_of(beam);
+    const wire::Ready built = Structure().prepare(setup);
+    setup.set_preview(true);
+    const wire::Ready asked = Structure().prepare(setup);
+    EXPECT_NEAR(asked.contact_mass() / built.contact_mass(), 1.0, 1e-12);
+    EXPECT_EQ(asked.surface().facet_size(), built.surface().facet_size());
+    ASSERT_EQ(asked.surface().position_size(), built.surface().position_size());
+    for (int i = 0; i < built.surface().position_size(); ++i) {
+      EXPECT_NEAR(asked.surface().position(i), built.surface().position(i), 1e-15);
+    }
+  }
+}
+
 TEST(Preview, RefusesWhatCannotBeComputed) {
   scene::Structure coarse = kSmallBeam;
   coarse.mutable_mesh()->set_refinement(0.1);

@@ -79,7 +79,7 @@ Record run(const scene::Structure& scene_part, double window, std::uint32_t step
 TEST(Structure, DescribesItselfBeforeItKnowsTheScene) {
   const wire::Hello hello = Structure().describe();
   EXPECT_EQ(hello.role(), wire::STRUCTURE);
-  EXPECT_EQ(hello.dimension(), 2u);
+  EXPECT_EQ(hello.dimension(0), 2u);
   EXPECT_THAT(hello.capabilities(), testing::IsSupersetOf({"beam", "rigid"}));
 }
 
@@ -89,7 +89,7 @@ TEST(Structure, ReadyTellsMassSizeSteps) {
   EXPECT_EQ(ready.size(), 4u * 30 * 6);
   EXPECT_NEAR(ready.mass(), 8000.0 * 0.1 * 0.02 * 1e-3, 1e-14);
   EXPECT_LT(ready.preferred_step(), ready.stable_step());
-  EXPECT_EQ(ready.surface().segment_size(), 2 * (30 + 6));
+  EXPECT_EQ(ready.surface().facet_size(), 2 * (30 + 6));
 }
 
 // Walking along every segment, the structure must lie to the right: tangent turned by +90 degrees points out.
@@ -101,9 +101,9 @@ TEST(Structure, NormalsPointOutwards) {
       structure.set_type(type);
       const wire::Surface surface = Structure().prepare(setup_of(structure)).surface();
       const double inside_x = extent == scene::Structure::EXTENT_HALF ? 0.05 : 0.0;
-      for (int s = 0; s < surface.segment_size(); s += 2) {
+      for (int s = 0; s < surface.facet_size(); s += 2) {
         const auto at = [&](int end, int c) {
-          return surface.position(static_cast<int>(2 * surface.segment(s + end)) + c);
+          return surface.position(static_cast<int>(2 * surface.facet(s + end)) + c);
         };
         const double normal_x = -(at(1, 1) - at(0, 1));
         const double normal_y = at(1, 0) - at(0, 0);

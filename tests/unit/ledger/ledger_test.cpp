@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace grainstep::ledger {
 namespace {
@@ -50,6 +52,46 @@ TEST(Ledger, EqualStepsCloseWithNothingInFlight) {
   EXPECT_EQ(b.momentum_error, 0.0);
   EXPECT_DOUBLE_EQ(b.impactor.change[1], 2.5);
   EXPECT_DOUBLE_EQ(b.momentum_reference, 10.0);
+}
+
+// The structure says only what it has received: 2.5, of which the messages carried 1 + 1.5. What it would have to show
+// for it is nobody's to judge.
+TEST(Ledger, OfASideWithoutBooksOnlyTheInterfaceIsJudged) {
+  Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true, {}, {.structure = wire::INTERFACE});
+  const auto sums = sums_of({-1.0, -3.0});
+  const Balance good = ledger.close(report_of({-7.5, 2.5}), report_of({0.0, -2.5}), sums.handed_over());
+  EXPECT_EQ(good.momentum_error, 0.0);
+  EXPECT_TRUE(std::isnan(good.structure.error));
+  EXPECT_TRUE(std::isnan(good.energy_change));
+  EXPECT_TRUE(std::isnan(good.structure_energy));
+  EXPECT_EQ(good.impactor.error, 0.0);
+  // It cannot have received more than was sent, and the other side is judged as ever.
+  EXPECT_DOUBLE_EQ(ledger.close(report_of({-7.5, 2.5}), report_of({0.0, -5.0}), sums.handed_over()).momentum_error,
+                   0.1);
+  EXPECT_DOUBLE_EQ(ledger.close(report_of({-6.5, 2.5}), report_of({0.0, -2.5}), sums.handed_over()).momentum_error,
+                   0.1);
+}
+
+TEST(Ledger, OfASideWithoutBooksTheWorkAtTheInterfaceIsJudged) {
+  Ledger ledger(report_of({0.0, 0.0}), report_of({0.0, 0.0}), true, {},
+                {.impactor = wire::INTERFACE, .structure = wire::INTERFACE});
+  wire::Report impactor = report_of({0.0, 1.0});
+  wire::Report structure = report_of({0.0, -1.0});
+  impactor.mutable_energy()->set_interface_work(-4.0);
+  structure.mutable_energy()->set_interface_work(3.0);
+  HandedOver handed = sums_of({-1.0, 0.0}).handed_over();
+  handed.acting = 10;
+  const Balance b = ledger.close(impactor, structure, handed);
+  EXPECT_DOUBLE_EQ(b.energy_reference, 4.0);
+  EXPECT_DOUBLE_EQ(b.energy_drift, 0.25);
+}
+
+TEST(Ledger, WhatIsNoNumberIsNotPassedOver) {
+  Ledger ledger(report_of({-10.0, 0.0}), report_of({0.0, 0.0}), true);
+  wire::Report impactor = report_of({-10.0, 0.0});
+  impactor.mutable_energy()->set_kinetic(std::numeric_limits<double>::infinity());
+  impactor.mutable_energy()->set_support_work(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(ledger.close(impactor, report_of({0.0, 0.0}), sums_of({0.0}).handed_over()).energy_drift));
 }
 
 TEST(Ledger, SupportsAreNotAnError) {

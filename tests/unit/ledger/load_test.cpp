@@ -1,7 +1,8 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -18,7 +19,7 @@ constexpr double kDepth = 0.5;
 wire::Surface flat() {
   wire::Surface out;
   for (const double x : {0.0, 0.0, 1.0, 0.0, 3.0, 0.0}) out.add_position(x);
-  for (const unsigned node : {0U, 1U, 1U, 2U}) out.add_segment(node);
+  for (const unsigned node : {0U, 1U, 1U, 2U}) out.add_facet(node);
   return out;
 }
 
@@ -41,10 +42,50 @@ TEST(SurfaceLoad, UniformPressureIsUniformOnRings) {
   EXPECT_NEAR(load.impulse_on_face(impulse), std::numbers::pi * 9.0, 1e-13);
 }
 
+// A square of side 2 in the plane x2 = 0, cut along a diagonal: outward normals (b - a) x (c - a) along +x2.
+wire::Surface square() {
+  wire::Surface out;
+  out.set_dimension(3);
+  for (const double x : {0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 0.0, 2.0, 0.0, 0.0, 2.0}) out.add_position(x);
+  for (const unsigned node : {0U, 2U, 1U, 0U, 3U, 2U}) out.add_facet(node);
+  return out;
+}
+
+// Pressure 1: a third of the area of every triangle to each of its nodes; the diagonal's nodes have two of them.
+TEST(SurfaceLoad, UniformPressureIsUniformOnTriangles) {
+  const SurfaceLoad load(square(), kDepth);
+  std::vector<double> impulse(12, 0.0);
+  for (const auto& [node, part] : {std::pair{0, 4.0}, {1, 2.0}, {2, 4.0}, {3, 2.0}})
+    impulse[3 * node + 1] = -part / 3.0;
+  for (const double p : load.impulse_per_area(impulse)) EXPECT_NEAR(p, 1.0, 1e-15);
+  EXPECT_NEAR(load.impulse_on_face(impulse), 4.0, 1e-14);
+  EXPECT_NEAR(load.area_of_face(), 4.0, 1e-15);
+  EXPECT_THAT(load.areas(), ::testing::ElementsAre(2.0, 2.0));
+  EXPECT_DOUBLE_EQ(load.middles()[0], 4.0 / 3.0);
+  EXPECT_DOUBLE_EQ(load.middles()[1], 0.0);
+  EXPECT_DOUBLE_EQ(load.middles()[2], 2.0 / 3.0);
+}
+
+TEST(SurfaceLoad, RefusesATriangleWithoutArea) {
+  wire::Surface surface = square();
+  surface.set_facet(1, 1);
+  EXPECT_THROW(SurfaceLoad(surface, kDepth), InputError);
+}
+
+TEST(LoadHistory, WithoutAnAreaThatOfTheFaceIsMeant) {
+  LoadHistory history(SurfaceLoad(square(), kDepth), {.window = 1.0, .steps = 1},
+                      std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> impulse(12, 0.0);
+  impulse[1] = -6.0;
+  history.add(0, impulse);
+  history.add(1, impulse);
+  EXPECT_DOUBLE_EQ(history.transmitted(), (12.0 - 3.0) / 4.0);
+}
+
 TEST(SurfaceLoad, RefusesASurfaceOfRevolutionOnItsAxis) {
   wire::Surface surface;
   for (const double x : {0.0, -1.0, 0.0, 0.0}) surface.add_position(x);
-  for (const unsigned node : {0U, 1U}) surface.add_segment(node);
+  for (const unsigned node : {0U, 1U}) surface.add_facet(node);
   EXPECT_THROW((void)SurfaceLoad::of_revolution(surface), InputError);
 }
 
@@ -61,7 +102,7 @@ TEST(SurfaceLoad, SegmentsAddUpToTheNodes) {
 TEST(SurfaceLoad, APushOnACornerPressesTheFaceThatItPointsTo) {
   wire::Surface surface;
   for (const double x : {0.0, 0.0, 2.0, 0.0, 2.0, -1.0}) surface.add_position(x);
-  for (const unsigned node : {0U, 1U, 1U, 2U}) surface.add_segment(node);
+  for (const unsigned node : {0U, 1U, 1U, 2U}) surface.add_facet(node);
   const SurfaceLoad load(surface, kDepth);
   const std::array impulse{0.0, 0.0, -3.0, -4.0, 0.0, 0.0};
   const auto per_area = load.impulse_per_area(impulse);
@@ -74,7 +115,7 @@ TEST(SurfaceLoad, APushOnACornerPressesTheFaceThatItPointsTo) {
 TEST(SurfaceLoad, FrictionIsNoPartOfWhatPressesOnTheLoadedFace) {
   wire::Surface wall;
   for (const double x : {-2.0, -1.0, -2.0, 0.0, 2.0, 0.0, 2.0, -1.0}) wall.add_position(x);
-  for (const unsigned node : {0U, 1U, 1U, 2U, 2U, 3U}) wall.add_segment(node);
+  for (const unsigned node : {0U, 1U, 1U, 2U, 2U, 3U}) wall.add_facet(node);
   const SurfaceLoad load(wall, kDepth);
   const std::array impulse{0.0, 0.0, 5.0, -4.0, -3.0, -1.5, 0.0, 0.0};
   EXPECT_DOUBLE_EQ(load.impulse_on_face(impulse), 5.5);
@@ -84,17 +125,17 @@ TEST(SurfaceLoad, FrictionIsNoPartOfWhatPressesOnTheLoadedFace) {
 TEST(SurfaceLoad, AnUnevenFaceReceivesWhatItsNodesReceiveAlongX2) {
   wire::Surface ridge;
   for (const double x : {0.0, 0.0, 1.0, 0.5, 2.0, 0.0, 1.0, -3.0}) ridge.add_position(x);
-  for (const unsigned node : {0U, 1U, 1U, 2U, 2U, 3U}) ridge.add_segment(node);
+  for (const unsigned node : {0U, 1U, 1U, 2U, 2U, 3U}) ridge.add_facet(node);
   const SurfaceLoad load(ridge, kDepth);
   EXPECT_DOUBLE_EQ(load.impulse_on_face(std::array{0.3, -1.0, -0.2, -2.0, 0.0, 0.0, 0.0, 0.0}), 3.0);
 }
 
 TEST(SurfaceLoad, RefusesTopologyThatDoesNotFit) {
   auto wrong = flat();
-  wrong.set_segment(3, 9);
+  wrong.set_facet(3, 9);
   EXPECT_THROW(SurfaceLoad(wrong, kDepth), InputError);
   auto degenerate = flat();
-  degenerate.set_segment(3, 1);
+  degenerate.set_facet(3, 1);
   EXPECT_THROW(SurfaceLoad(degenerate, kDepth), InputError);
 }
 

@@ -47,7 +47,8 @@ class SpringStructure final : public participant::StructureBackend {
     out.set_backend("spring");
     out.set_role(wire::STRUCTURE);
     out.set_protocol(wire::PROTOCOL_VERSION);
-    out.set_dimension(2);
+    out.add_dimension(2);
+    for (const char* word : {"external", "plane_strain"}) out.add_capabilities(word);
     return out;
   }
   [[nodiscard]] wire::Ready prepare(const wire::Setup& setup) override {
@@ -56,13 +57,16 @@ class SpringStructure final : public participant::StructureBackend {
     out.set_stable_step(1e-3);
     out.set_preferred_step(1e-3);
     out.set_size(1);
+    out.set_counted("elements");
+    out.set_ledger(wire::FULL);
     out.set_mass(mass);
+    out.mutable_surface()->set_dimension(2);
     for (const double x : {0.0, 0.0, width, 0.0}) {
       out.mutable_surface()->add_position(x);
       out.mutable_surface()->add_velocity(0.0);
     }
-    out.mutable_surface()->add_segment(0);
-    out.mutable_surface()->add_segment(1);
+    out.mutable_surface()->add_facet(0);
+    out.mutable_surface()->add_facet(1);
     return out;
   }
   void start(const wire::Start& start) override {
@@ -146,7 +150,8 @@ class BallImpactor final : public participant::ImpactorBackend {
     out.set_backend("ball");
     out.set_role(wire::IMPACTOR);
     out.set_protocol(wire::PROTOCOL_VERSION);
-    out.set_dimension(2);
+    out.add_dimension(2);
+    for (const char* word : {"external", "plane_strain"}) out.add_capabilities(word);
     return out;
   }
   [[nodiscard]] wire::Ready prepare(const wire::Setup& setup) override {
@@ -155,6 +160,8 @@ class BallImpactor final : public participant::ImpactorBackend {
     out.set_stable_step(2e-3);
     out.set_preferred_step(preferred_);
     out.set_size(1);
+    out.set_counted("particles");
+    out.set_ledger(wire::FULL);
     return out;
   }
   void run(const wire::Start& start, participant::ImpactorLink& link) override {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <future>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <thread>
@@ -87,6 +88,8 @@ class Handshake : public ::testing::Test {
       act();
     } catch (const PeerError& error) {
       return error.what();
+    } catch (const InputError& error) {
+      return std::string("bad input: ") + error.what();
     }
     return "";
   }
@@ -130,8 +133,21 @@ TEST_F(Handshake, RefusesAnotherProtocol) {
 }
 
 TEST_F(Handshake, RefusesAnotherDimension) {
-  hello_impactor_.set_dimension(3);
-  EXPECT_THAT(introduction(), HasSubstr("impactor: ball: computes in 3 dimensions, the scene has 2"));
+  hello_impactor_.clear_dimension();
+  hello_impactor_.add_dimension(3);
+  EXPECT_THAT(introduction(),
+              HasSubstr("bad input: symmetry: the scene has 2 dimensions, but the impactor (ball) computes in 3"));
+}
+
+TEST_F(Handshake, NamesTheKeyThatAsksForWhatAPeerCannot) {
+  scene_.set_symmetry(scene::SYMMETRY_AXISYMMETRIC);
+  EXPECT_THAT(introduction(), HasSubstr("bad input: symmetry: asks for 'axisymmetric', which the impactor (ball) does "
+                                        "not say it can compute; its capabilities: external, plane_strain"));
+}
+
+TEST_F(Handshake, AStructureThatCannotIsRefusedAsWell) {
+  scene_.mutable_structure()->set_type(scene::Structure::TYPE_BEAM);
+  EXPECT_THAT(introduction(), HasSubstr("bad input: structure.type: asks for 'beam', which the structure (spring)"));
 }
 
 TEST_F(Handshake, RefusesAModelOfAnotherScene) {
@@ -153,6 +169,48 @@ TEST_F(Handshake, RefusesAPreferredStepBeyondTheStableOne) {
   ready_structure_.set_preferred_step(2e-3);
   EXPECT_THAT(preparation_of_structure(), HasSubstr("prefers a step of 0.002 s, but is stable only up to 0.001 s"));
 }
+
+/// What a participant may say of itself, and what is made of it.
+struct WrongReady {
+  const char* name;
+  std::function<void(wire::Ready&)> change;
+  const char* text;
+};
+
+class WrongSurface : public Handshake, public ::testing::WithParamInterface<WrongReady> {};
+
+TEST_P(WrongSurface, IsRefused) {
+  GetParam().change(ready_structure_);
+  EXPECT_THAT(preparation_of_structure(), HasSubstr(std::string("structure: ") + GetParam().text));
+}
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+INSTANTIATE_TEST_SUITE_P(
+    Handshake, WrongSurface,
+    ::testing::Values(
+        WrongReady{"dimension", [](wire::Ready& r) { r.mutable_surface()->set_dimension(3); },
+                   "Ready.surface has dimension 3, the run has 2"},
+        WrongReady{"no_nodes", [](wire::Ready& r) { r.mutable_surface()->clear_position(); },
+                   "Ready.surface has no nodes"},
+        WrongReady{"half_a_node", [](wire::Ready& r) { r.mutable_surface()->add_position(1.0); },
+                   "Ready.surface.position holds 5 numbers, expected 4"},
+        WrongReady{"other_velocities", [](wire::Ready& r) { r.mutable_surface()->add_velocity(1.0); },
+                   "Ready.surface.velocity holds 5 numbers, expected 4"},
+        WrongReady{"no_facets", [](wire::Ready& r) { r.mutable_surface()->clear_facet(); },
+                   "Ready.surface.facet holds 0 node numbers"},
+        WrongReady{"half_a_facet", [](wire::Ready& r) { r.mutable_surface()->add_facet(0); },
+                   "Ready.surface.facet holds 3 node numbers, expected 2 for each facet"},
+        WrongReady{"node_that_is_not", [](wire::Ready& r) { r.mutable_surface()->set_facet(1, 2); },
+                   "Ready.surface: facet 0 names node 2, but the surface has 2 nodes"},
+        WrongReady{"no_length", [](wire::Ready& r) { r.mutable_surface()->set_facet(1, 0); },
+                   "Ready.surface: facet 0 has no length"},
+        WrongReady{"infinite_place", [](wire::Ready& r) { r.mutable_surface()->set_position(2, 1.0 / 0.0); },
+                   "Ready.surface.position[2] = inf"},
+        WrongReady{"mass", [](wire::Ready& r) { r.set_mass(not_a_number); }, "Ready.mass = nan"},
+        WrongReady{"negative", [](wire::Ready& r) { r.set_contact_mass(-1.0); }, "Ready.contact_mass is -1"},
+        WrongReady{"ledger", [](wire::Ready& r) { r.clear_ledger(); }, "Ready.ledger is not said"}),
+    [](const auto& one) { return std::string(one.param.name); });
 
 TEST_F(Handshake, TheSetupHoldsTheSceneAndTheStructuresAnswer) {
   scene_.set_symmetry(scene::SYMMETRY_PLANE_STRAIN);

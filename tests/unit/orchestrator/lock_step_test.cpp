@@ -19,6 +19,8 @@ using ::testing::HasSubstr;
 class HandPlayed : public ::testing::Test {
  protected:
   HandPlayed() : hub_(*impactor_.near_, *structure_.near_, loop_) {
+    hub_.structure().ready.mutable_surface()->set_dimension(2);
+    for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) peer->ready.set_ledger(wire::FULL);
     for (const double x : {0.0, 0.0, 1.0, 0.0}) hub_.structure().ready.mutable_surface()->add_position(x);
     start_.set_window(1e-3);
     start_.set_windows(10);
@@ -194,6 +196,11 @@ TEST_F(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
 TEST_F(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
   wire::Report report;
   report.set_window(0);
+  for (auto* vector :
+       {report.mutable_momentum()->mutable_linear(), report.mutable_momentum()->mutable_interface_impulse(),
+        report.mutable_momentum()->mutable_support_impulse()}) {
+    vector->Resize(2, 0.0);
+  }
   structure_.messages_->send(report);
   wire::Error error;
   error.set_kind(wire::Error::NUMERICAL);

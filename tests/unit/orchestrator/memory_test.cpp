@@ -16,11 +16,22 @@ using ::testing::HasSubstr;
 
 constexpr std::uint64_t gibibyte = 1ULL << 30U;
 
-Preparation of(ImpactorPreview impactor, std::uint64_t structure) {
+struct Impactor {
+  const char* counted = "particles";
+  std::uint64_t size = 0, memory = 0, rank_memory = 0;
+};
+
+Preparation of(const Impactor& impactor, std::uint64_t structure) {
   Preparation out;
-  out.impactor = impactor;
-  out.structure = fe::StructurePreview{};
-  out.structure->memory_bytes = structure;
+  if (std::string(impactor.counted) == "elements") out.scene.mutable_impactor()->set_type(scene::Impactor::TYPE_FOAM);
+  out.impactor.emplace();
+  out.impactor->set_counted(impactor.counted);
+  out.impactor->set_size(impactor.size);
+  out.impactor->set_memory(impactor.memory);
+  out.impactor->set_rank_memory(impactor.rank_memory);
+  out.structure.emplace();
+  out.structure->set_counted("elements");
+  out.structure->set_memory(structure);
   return out;
 }
 
@@ -34,22 +45,22 @@ std::string refusal(const Preparation& preparation, std::uint64_t machine) {
 }
 
 TEST(Memory, BothSidesAndAllRanksCount) {
-  const Preparation p = of({.memory_bytes = 5 * gibibyte, .process_bytes = gibibyte}, 2 * gibibyte);
+  const Preparation p = of({.memory = 5 * gibibyte, .rank_memory = gibibyte}, 2 * gibibyte);
   EXPECT_EQ(memory_of(p, 1), 7 * gibibyte);
   EXPECT_EQ(memory_of(p, 4), 10 * gibibyte);
   EXPECT_EQ(memory_of({}, 1), 0U);  // both external
-  Preparation foam = of({.elements = 10'000'000, .memory_bytes = gibibyte}, 0);
+  Preparation foam = of({.counted = "elements", .size = 10'000'000, .memory = gibibyte}, 0);
   EXPECT_EQ(memory_of(foam, 1), gibibyte);
   foam.scene.mutable_output()->set_snapshots(5);
   EXPECT_GT(memory_of(foam, 1), 3 * gibibyte);
 }
 
 TEST(Memory, WhatDoesNotFitIsRefusedByTheLargerSide) {
-  const Preparation sand = of({.particles = 10, .memory_bytes = 5 * gibibyte}, 2 * gibibyte);
+  const Preparation sand = of({.size = 10, .memory = 5 * gibibyte}, 2 * gibibyte);
   EXPECT_EQ(refusal(sand, 7 * gibibyte), "");
   EXPECT_THAT(refusal(sand, 6 * gibibyte),
               AllOf(HasSubstr("particle.diameter"), HasSubstr("7 GiB"), HasSubstr("6 GiB"), HasSubstr("raise")));
-  const Preparation foam = of({.elements = 10, .memory_bytes = 5 * gibibyte}, 2 * gibibyte);
+  const Preparation foam = of({.counted = "elements", .size = 10, .memory = 5 * gibibyte}, 2 * gibibyte);
   EXPECT_THAT(refusal(foam, gibibyte), AllOf(HasSubstr("impactor.foam.elements"), HasSubstr("lower")));
   EXPECT_THAT(refusal(of({}, 2 * gibibyte), gibibyte), HasSubstr("structure.mesh.refinement"));
   EXPECT_NO_THROW(require_memory(sand, 1, std::nullopt));

@@ -73,9 +73,42 @@ TEST(Participants, ThoseOfThisHostHavePrivateSockets) {
   RunOptions options;
   options.listen = "tcp://127.0.0.1:*";
   options.external = {"structure"};
-  Participants participants(scene::Scene{}, options);
+  scene::Scene scene;
+  scene.mutable_impactor()->set_type(scene::Impactor::TYPE_SLUG);
+  Participants participants(scene, options);
   EXPECT_THAT(endpoint_of(participants.impactor()), HasSubstr("ipc://"));
   EXPECT_THAT(endpoint_of(participants.structure()), HasSubstr("tcp://127.0.0.1:"));
+}
+
+std::string refusal_of(const scene::Scene& scene, const RunOptions& options) {
+  try {
+    check_programs(scene, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Programs, AnotherThanOursRunsOnlyOnTheUsersOwnWord) {
+  scene::Scene scene;
+  scene.mutable_structure()->set_type(scene::Structure::TYPE_BEAM);
+  EXPECT_EQ(refusal_of(scene, {}), "");
+  scene.mutable_structure()->set_program("grainstep-fe");
+  EXPECT_EQ(refusal_of(scene, {}), "");
+  scene.mutable_structure()->set_program("./mine.py");
+  EXPECT_THAT(refusal_of(scene, {}), HasSubstr("structure.program: the scene would start './mine.py'"));
+  EXPECT_THAT(refusal_of(scene, {}), HasSubstr("--set structure.program=./mine.py, or --allow-program"));
+  RunOptions options;
+  options.allow_program = true;
+  EXPECT_EQ(refusal_of(scene, options), "");
+  options.allow_program = false;
+  options.scene.set = {"structure.programs=x", "impactor.program=./mine.py"};
+  EXPECT_NE(refusal_of(scene, options), "");
+  options.scene.set = {"structure.program=./mine.py"};
+  EXPECT_EQ(refusal_of(scene, options), "");
+  options.scene.set.clear();
+  options.external = {"structure"};  // nothing is started here
+  EXPECT_EQ(refusal_of(scene, options), "");
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ class GuardedRun {
     plan_.window = 0.01;
     plan_.windows = 2;
     for (const double x : {0.0, 0.0, 1.0, 0.0}) surface_.add_position(x);
-    surface_.add_segment(0);
-    surface_.add_segment(1);
+    surface_.add_facet(0);
+    surface_.add_facet(1);
     static_cast<void>(directory_.prepare(results::Existing::refuse));
     file_.emplace(directory_.results(), std::vector<results::Text>{});
     recorder_.emplace(Recorder::Context{.scene = scene_, .groups = groups_, .plan = plan_, .surface = surface_},

@@ -37,6 +37,7 @@ scene::Scene scene_of_one_segment() {
   layer.set_thickness(0.1);
   layer.set_density(1000.0);
   layer.set_yield_strength(1e9);
+  out.mutable_impactor()->set_type(scene::Impactor::TYPE_SLUG);
   out.mutable_guards()->set_energy_drift(0.03);
   out.mutable_guards()->set_momentum_error(1e-9);
   out.mutable_guards()->set_overlap(0.5);
@@ -52,8 +53,8 @@ class RecorderTest : public ::testing::Test {
     plan_.report_every = 10;
     plan_.profile_every = 20;
     for (const double x : {-1.0, 0.0, 1.0, 0.0}) surface_.add_position(x);
-    surface_.add_segment(0);
-    surface_.add_segment(1);
+    surface_.add_facet(0);
+    surface_.add_facet(1);
     start_over();
   }
 

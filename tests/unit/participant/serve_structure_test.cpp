@@ -11,7 +11,7 @@ class OneNode final : public StructureBackend {
   wire::Hello describe() const override {
     wire::Hello hello;
     hello.set_backend("one node");
-    hello.set_dimension(2);
+    hello.add_dimension(2);
     return hello;
   }
   wire::Ready prepare(const wire::Setup& /*setup*/) override {

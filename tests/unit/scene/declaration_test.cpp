@@ -21,7 +21,8 @@ using google::protobuf::FieldDescriptor;
 void collect(const Descriptor& message, std::set<const Descriptor*>& all) {
   if (!all.insert(&message).second) return;
   for (int i = 0; i < message.field_count(); ++i) {
-    if (message.field(i)->message_type() != nullptr) collect(*message.field(i)->message_type(), all);
+    if (message.field(i)->message_type() == nullptr || is_free(*message.field(i))) continue;
+    collect(*message.field(i)->message_type(), all);
   }
 }
 
@@ -84,7 +85,7 @@ void expect_in_notation(const std::string& notation, const Descriptor& section, 
               line.find(column) != std::string::npos;
     }
     EXPECT_TRUE(found) << "docs/theory/notation.md has no row for " << symbol << ", " << key << ", " << column;
-    if (field.message_type() != nullptr) expect_in_notation(notation, *field.message_type(), key);
+    if (field.message_type() != nullptr && !is_free(field)) expect_in_notation(notation, *field.message_type(), key);
   }
 }
 

@@ -102,7 +102,7 @@ void expect_words(const google::protobuf::Descriptor& section) {
     EXPECT_EQ(ranged, !key.usual_text().empty()) << field.full_name();
     EXPECT_TRUE(!ranged || field.cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) << field.full_name();
     EXPECT_TRUE(!key.has_usual_to() || key.usual_from() < key.usual_to()) << field.full_name();
-    if (field.message_type() != nullptr) expect_words(*field.message_type());
+    if (field.message_type() != nullptr && !is_free(field)) expect_words(*field.message_type());
   }
 }
 

@@ -73,8 +73,8 @@ inline void place(const Experiment& experiment, wire::Setup& setup) {
       surface.add_position(experiment.nodes[i][1]);
       for (int c = 0; c < 2; ++c) surface.add_velocity(0.0);
       if (i == 0) continue;
-      surface.add_segment(static_cast<std::uint32_t>(k * count + i - 1));
-      surface.add_segment(static_cast<std::uint32_t>(k * count + i));
+      surface.add_facet(static_cast<std::uint32_t>(k * count + i - 1));
+      surface.add_facet(static_cast<std::uint32_t>(k * count + i));
     }
   }
 }

@@ -1,0 +1,149 @@
+#include "orchestrator/check_ready.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "ledger/message_numbers.hpp"
+#include "scene/suggest.hpp"
+
+namespace grainstep::orchestrator {
+namespace {
+
+constexpr int digits = 4;  // of times and steps, in messages
+
+using Values = google::protobuf::RepeatedField<double>;
+
+[[noreturn]] void refuse(const Peer& peer, const std::string& text) { throw PeerError(peer.name(), text); }
+
+void check_steps(const Peer& peer) {
+  const double stable = peer.ready.stable_step();
+  const double preferred = peer.ready.preferred_step();
+  if (!(stable > 0.0) || !(preferred > 0.0)) {
+    refuse(peer, "gives a stable step of " + rounded_text(stable, digits) + " s and prefers " +
+                     rounded_text(preferred, digits) + " s; both must be above zero");
+  }
+  if (preferred > stable) {
+    refuse(peer, "prefers a step of " + rounded_text(preferred, digits) + " s, but is stable only up to " +
+                     rounded_text(stable, digits) + " s");
+  }
+}
+
+void check_not_negative(const Peer& peer) {
+  const wire::Ready& r = peer.ready;
+  const std::pair<const char*, double> numbers[] = {{"mass", r.mass()},
+                                                    {"contact_mass", r.contact_mass()},
+                                                    {"contact_time", r.contact_time()},
+                                                    {"free_mass", r.free_mass()},
+                                                    {"longest_window", r.longest_window()},
+                                                    {"largest_particle", r.largest_particle()},
+                                                    {"seconds_per_step", r.seconds_per_step()}};
+  for (const auto& [name, value] : numbers) {
+    if (!(value >= 0.0)) {
+      refuse(peer, "Ready." + std::string(name) + " is " + rounded_text(value, digits) +
+                       "; it must be 0 (not known) or above");
+    }
+  }
+}
+
+void check_length(const Peer& peer, const char* what, const Values& values, int expected) {
+  if (values.size() == expected) return;
+  refuse(peer, "Ready.surface." + std::string(what) + " holds " + std::to_string(values.size()) +
+                   " numbers, expected " + std::to_string(expected) +
+                   ": as many as the other, a multiple of the dimension");
+}
+
+/// Length of a segment, twice the area of a triangle.
+double extent_of(const wire::Surface& surface, int first) {
+  const auto n = static_cast<int>(surface.dimension());
+  double edge[2][3] = {};
+  for (int k = 1; k < n; ++k) {
+    for (int c = 0; c < n; ++c) {
+      edge[k - 1][c] = surface.position(n * static_cast<int>(surface.facet(first + k)) + c) -
+                       surface.position(n * static_cast<int>(surface.facet(first)) + c);
+    }
+  }
+  if (n == 2) return std::hypot(edge[0][0], edge[0][1]);
+  const auto cross = [&](int a, int b) { return edge[0][a] * edge[1][b] - edge[0][b] * edge[1][a]; };
+  return std::hypot(cross(1, 2), cross(2, 0), cross(0, 1));
+}
+
+void check_facets(const Peer& peer, const wire::Surface& surface, unsigned nodes) {
+  const auto n = static_cast<int>(surface.dimension());
+  if (surface.facet_size() == 0 || surface.facet_size() % n != 0) {
+    refuse(peer, "Ready.surface.facet holds " + std::to_string(surface.facet_size()) + " node numbers, expected " +
+                     std::to_string(n) + " for each facet, and one facet at least");
+  }
+  for (int i = 0; i < surface.facet_size(); ++i) {
+    if (surface.facet(i) < nodes) continue;
+    refuse(peer, "Ready.surface: facet " + std::to_string(i / n) + " names node " + std::to_string(surface.facet(i)) +
+                     ", but the surface has " + std::to_string(nodes) + " nodes, counted from 0");
+  }
+  for (int i = 0; i < surface.facet_size(); i += n) {
+    if (extent_of(surface, i) > 0.0) continue;
+    refuse(peer, "Ready.surface: facet " + std::to_string(i / n) + " has no " + (n == 2 ? "length" : "area"));
+  }
+}
+
+void check_surface(const Peer& peer, const Demands& demands) {
+  const wire::Surface& surface = peer.ready.surface();
+  if (surface.dimension() != demands.dimension) {
+    refuse(peer, "Ready.surface has dimension " + std::to_string(surface.dimension()) + ", the run has " +
+                     std::to_string(demands.dimension));
+  }
+  const int size = surface.position_size();
+  const auto dimension = static_cast<int>(demands.dimension);
+  if (size == 0) refuse(peer, "Ready.surface has no nodes: there would be nothing to touch");
+  check_length(peer, "position", surface.position(), size - size % dimension);
+  check_length(peer, "velocity", surface.velocity(), size);
+  check_facets(peer, surface, static_cast<unsigned>(size / dimension));
+}
+
+}  // namespace
+
+void check_hello(const Peer& peer, const Demands& demands) {
+  const wire::Hello& hello = peer.hello;
+  const std::string& who = hello.backend();
+  if (hello.protocol() != wire::PROTOCOL_VERSION) {
+    refuse(peer, who + ": speaks protocol version " + std::to_string(hello.protocol()) + ", this program version " +
+                     std::to_string(wire::PROTOCOL_VERSION) + ": update the older one");
+  }
+  if (hello.role() != peer.role) {
+    refuse(peer, who + ": says that it is the " + wire::Role_Name(hello.role()) + ", the " +
+                     wire::Role_Name(peer.role) + " was expected: it was started with the other side's address");
+  }
+  if (std::ranges::find(hello.dimension(), demands.dimension) == hello.dimension().end()) {
+    std::vector<std::string> known;
+    for (const unsigned one : hello.dimension()) known.push_back(std::to_string(one));
+    throw InputError("symmetry: the scene has " + std::to_string(demands.dimension) + " dimensions, but the " +
+                     peer.name() + " (" + who + ") computes in " + (known.empty() ? "none" : scene::join_words(known)));
+  }
+  const std::vector<std::string> words(hello.capabilities().begin(), hello.capabilities().end());
+  for (const scene::Need& need : demands.needs) {
+    if (std::ranges::find(words, need.word) != words.end()) continue;
+    throw InputError(need.key + ": asks for '" + need.word + "', which the " + peer.name() + " (" + who +
+                     ") does not say it can compute; its capabilities: " +
+                     (words.empty() ? std::string("none") : scene::join_words(words)));
+  }
+}
+
+void check_ready(const Peer& peer, const Demands& demands) {
+  const wire::Ready& ready = peer.ready;
+  if (ready.scene_hash() != demands.scene_hash) {
+    refuse(peer, "prepared scene " + std::to_string(ready.scene_hash()) + ", this run is of scene " +
+                     std::to_string(demands.scene_hash));
+  }
+  if (const auto found = ledger::first_not_finite(ready)) refuse(peer, "Ready." + *found + "; it must be a number");
+  check_steps(peer);
+  check_not_negative(peer);
+  if (ready.ledger() != wire::FULL && ready.ledger() != wire::INTERFACE) {
+    refuse(peer,
+           "Ready.ledger is not said: FULL (energy and momentum of all that it models) or INTERFACE (only what "
+           "passes through the surface)");
+  }
+  if (peer.role == wire::STRUCTURE) check_surface(peer, demands);
+}
+
+}  // namespace grainstep::orchestrator
