@@ -42,7 +42,7 @@ grainstep::wire::Ready Spring::prepare(const Setup& setup) {
   grainstep::wire::Ready ready;
   ready.set_scene_hash(setup.scene_hash());
   ready.set_stable_step(2.0 / std::sqrt(stiffness_ / mass_));  // of central differences: 2/omega
-  ready.set_preferred_step(0.1 * ready.stable_step());
+  ready.set_preferred_step(0.02 * ready.stable_step());
   ready.set_counted("elements");
   ready.set_size(1);
   ready.set_mass(mass_);
