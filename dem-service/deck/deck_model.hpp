@@ -3,6 +3,7 @@
 
 #include "dem-service/slug_model.hpp"
 #include "grainstep/scene.pb.h"
+#include "grainstep/wire.pb.h"
 
 namespace grainstep::dem {
 
