@@ -3,6 +3,7 @@
 
 #include "dem-service/slug_model.hpp"
 #include "grainstep/scene.pb.h"
+#include "grainstep/wire.pb.h"
 
 namespace grainstep::dem {
 
@@ -16,6 +17,9 @@ struct DeckParticles {
   int dimension = 3;
   bool own_pair_style = false;  ///< grainstep/hooke: it keeps the energies of its contacts
 };
+
+/// InputError for a scene that scripts cannot load.
+void require_deck_scene(const wire::Setup& setup);
 
 /// Throws InputError for what cannot touch a surface: points, no particles, another dimension than the surface's.
 [[nodiscard]] SlugModel make_deck_model(const scene::DeckContact& contact, const DeckParticles& particles);
