@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
 .PHONY: help packages configured build demo demo-programs test test-long verify sanitize drill golden bench bench-plates \
-  accuracy figures docs clean
+  accuracy figures docs containers clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -21,6 +21,7 @@ help:
 	@echo "make accuracy  speed against error again, with quiet timings: docs/accuracy.md and what check recommends (half an hour)"
 	@echo "make figures   the paper's figures again: docs/benchmarks (half an hour; finished runs are kept)"
 	@echo "make docs      regenerate the generated pages of docs/"
+	@echo "make containers  images, and runs in three containers compared with local ones (as root, without Docker)"
 
 packages:
 	@tools/install-packages build run plot test
@@ -104,6 +105,9 @@ figures: build
 
 docs: build
 	@$(BUILD)/bin/grainstep-docs docs/user
+
+containers:
+	@$(PYTHON) tools/containers --local $(BUILD)/bin
 
 clean:
 	rm -rf build build-debug build-sanitize

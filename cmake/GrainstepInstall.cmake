@@ -5,6 +5,11 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS grainstep grainstep-dem grainstep-fe grainstep-keys RUNTIME COMPONENT programs)
 
+# What an unmodified LAMMPS loads, and the script that loads it.
+install(TARGETS grainstep_lammps LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT programs)
+install(FILES ${PROJECT_SOURCE_DIR}/examples/lammps/grainstep_lammps.py
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/grainstep/lammps COMPONENT programs)
+
 # One library of the folders that a participant works with. Its users need Protobuf and ZeroMQ, and nothing of what the
 # programs need besides.
 set(participant_folders base proto transport wire participant participant_program)

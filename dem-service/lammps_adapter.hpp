@@ -165,6 +165,16 @@ class ParticleFix : public LAMMPS_NS::Fix {
   void return_from_ghosts() {
     if (comm->nprocs > 1) comm->reverse_comm_fix_variable(this);
   }
+  [[nodiscard]] MPI_Comm communicator() const { return world; }
+  [[nodiscard]] int rank() const { return comm->me; }
+  [[nodiscard]] double skin() const { return neighbor->skin; }  ///< m
+  /// Another time step (s), told to everything that keeps it.
+  void set_step(double step) const {
+    update->dt = step;
+    if (force->pair != nullptr) force->pair->reset_dt();
+    for (int i = 0; i < modify->nfix; ++i) modify->fix[i]->reset_dt();
+  }
+  [[noreturn]] void refuse(const std::string& text) const { error->all(FLERR, text); }
   /// The run ends with this step, as if its time were up.
   void end_run() const { timer->force_timeout(); }
 };

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "dem-service/attach.hpp"
+#include "dem-service/deck/deck_particles.hpp"
 #include "dem-service/lammps_adapter.hpp"
 #include "dem-service/pair/style.hpp"
 #include "surface/disc_overlap.hpp"
@@ -42,41 +41,6 @@ std::string value_text(const std::string& name, const google::protobuf::Value& v
   throw InputError("impactor.deck.variables." + name + ": expected a number or a text");
 }
 
-double over_all(double mine, MPI_Op operation, MPI_Comm communicator) {
-  double all = 0.0;
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, operation, communicator);
-  return all;
-}
-
-DeckParticles found_in(lammps::Instance& instance, MPI_Comm communicator) {
-  constexpr double huge = std::numeric_limits<double>::max();
-  const lammps::Particles mine = lammps::particles_of(instance);
-  double smallest = huge, lightest = huge, largest = 0.0, heaviest = 0.0, mass = 0.0;
-  for (int i = 0; mine.radius != nullptr && mine.mass != nullptr && i < mine.owned; ++i) {
-    smallest = std::min(smallest, 2.0 * mine.radius[i]);
-    largest = std::max(largest, 2.0 * mine.radius[i]);
-    lightest = std::min(lightest, mine.mass[i]);
-    heaviest = std::max(heaviest, mine.mass[i]);
-    mass += mine.mass[i];
-  }
-  const lammps::Facts facts = lammps::facts_of(instance);
-  DeckParticles out;
-  out.count = static_cast<std::uint64_t>(over_all(mine.owned, MPI_SUM, communicator));
-  out.smallest = over_all(smallest, MPI_MIN, communicator);
-  out.largest = over_all(largest, MPI_MAX, communicator);
-  out.lightest = over_all(lightest, MPI_MIN, communicator);
-  out.heaviest = over_all(heaviest, MPI_MAX, communicator);
-  out.mass = over_all(mass, MPI_SUM, communicator);
-  if (out.smallest == huge) out.smallest = 0.0;
-  out.step = facts.step;
-  out.dimension = facts.dimension;
-  out.own_pair_style = facts.pair_style == PairStyle::style_name;
-  if (facts.units != "si") {
-    throw InputError("impactor.deck: the script has units " + facts.units + "; write `units si`");
-  }
-  return out;
-}
-
 }  // namespace
 
 DeckEngine::DeckEngine(const EngineOptions& options, const wire::Setup& setup)
@@ -86,14 +50,10 @@ DeckEngine::DeckEngine(const EngineOptions& options, const wire::Setup& setup)
         "impactor.deck: a script can do anything on this machine, so it is run on your word only: start "
         "this participant with --allow-deck");
   }
-  if (setup.symmetry() != scene::SYMMETRY_PLANE_STRAIN || setup.mirror()) {
-    throw InputError(
-        "impactor.deck: scripts load structures in plane strain without a mirror plane; write structure.extent: "
-        "full");
-  }
+  require_deck_scene(setup);
   run_script();
   const scene::DeckContact& contact = setup.impactor().impactor().deck().contact();
-  particles_ = found_in(session_.lammps(), options.communicator);
+  particles_ = deck_particles(session_.lammps(), options.communicator);
   model_ = make_deck_model(contact, particles_);
   const wire::Surface& surface = setup.impactor().surface();
   if (!surface.facet().empty()) {

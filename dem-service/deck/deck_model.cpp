@@ -7,6 +7,14 @@
 
 namespace grainstep::dem {
 
+void require_deck_scene(const wire::Setup& setup) {
+  if (setup.symmetry() != scene::SYMMETRY_PLANE_STRAIN || setup.mirror()) {
+    throw InputError(
+        "impactor.deck: scripts load structures in plane strain without a mirror plane; write structure.extent: "
+        "full");
+  }
+}
+
 SlugModel make_deck_model(const scene::DeckContact& contact, const DeckParticles& particles) {
   if (particles.count == 0) throw InputError("impactor.deck: the script makes no particles before its first run");
   if (!(particles.smallest > 0.0)) {

@@ -18,6 +18,9 @@ struct DeckParticles {
   bool own_pair_style = false;  ///< grainstep/hooke: it keeps the energies of its contacts
 };
 
+/// InputError for a scene that scripts cannot load.
+void require_deck_scene(const wire::Setup& setup);
+
 /// Throws InputError for what cannot touch a surface: points, no particles, another dimension than the surface's.
 [[nodiscard]] SlugModel make_deck_model(const scene::DeckContact& contact, const DeckParticles& particles);
 

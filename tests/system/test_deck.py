@@ -1,11 +1,14 @@
 """impactor.type deck: a LAMMPS script of one's own, run up to its first `run` and then driven."""
+import os
 import pathlib
+import shutil
+import subprocess
 import tempfile
 import unittest
 
 import h5py
 
-from runs import Run
+from runs import SOURCE, WHOLE_RUN, Run, until
 
 SCRIPT = """
 units si
@@ -133,6 +136,64 @@ class Deck(unittest.TestCase):
         scene = self.scene()
         (self.folder / "script.in").unlink()
         self.refused(scene, "script.in", "--allow-deck")
+
+
+@unittest.skipUnless(shutil.which("lmp"), "no lmp is installed (Debian: lammps)")
+class UnmodifiedLammps(unittest.TestCase):
+    """The same script in LAMMPS's own program, which learns of Grainstep by three lines."""
+    COUPLED = f"""python grainstep_register input 1 SELF format p file {SOURCE}/examples/lammps/grainstep_lammps.py
+python grainstep_register invoke
+fix coupling all grainstep/coupling ${{{{endpoint}}}}
+run 100000000 post no"""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "script.in").write_text(SCRIPT.format(pair=STOCK, end=self.COUPLED.format(), seed=7))
+        (self.folder / "scene.yaml").write_text(SCENE.format(script=self.folder / "script.in"))
+
+    def lmp(self, endpoint, *before):
+        environment = {**os.environ, "GRAINSTEP_LAMMPS_LIBRARY": os.environ["GRAINSTEP_LAMMPS_LIBRARY"]}
+        return subprocess.Popen([*before, "lmp", "-in", self.folder / "script.in", "-var", "endpoint", endpoint, "-var",
+                                 "speed", "200", "-log", "none"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                text=True, cwd=self.folder, env=environment)
+
+    def coupled(self, *before):
+        with Run("--external", "impactor", scene=self.folder / "scene.yaml") as run:
+            until(lambda: "start it with" in run.process.stdout.readline(), "the command to be printed")
+            endpoint = run.process.stdout.readline().split()[-1]
+            with self.lmp(endpoint, *before) as lammps:
+                said, _ = lammps.communicate(timeout=WHOLE_RUN)
+            run.end()
+            self.assertEqual((run.code, lammps.returncode), (0, 0), run.stderr + said)
+            return run.summary()
+
+    def test_it_gives_what_the_script_gives_in_grainstep_dem(self):
+        with Run("--allow-deck", scene=self.scene_up_to_run()) as run:
+            run.end()
+            self.assertEqual(run.code, 0, run.stderr)
+            inside = run.summary()
+        outside = self.coupled()
+        self.assertEqual(outside["ledgers"], {"impactor": "interface", "structure": "full"})
+        self.assertLess(outside["momentum_error"], 1e-10)
+        self.assertAlmostEqual(outside["peak_deflection"] / inside["peak_deflection"], 1.0, delta=0.01)
+
+    def scene_up_to_run(self):
+        (self.folder / "own.in").write_text(SCRIPT.format(pair=STOCK, end="run 1", seed=7))
+        path = self.folder / "own.yaml"
+        path.write_text(SCENE.format(script=self.folder / "own.in"))
+        return path
+
+    def test_two_ranks_give_the_same_blow(self):
+        mpirun = ("mpirun", "--oversubscribe", "-np", "2")
+        self.assertLess(self.coupled(*mpirun)["momentum_error"], 1e-10)
+
+    def test_an_orchestrator_that_is_not_there(self):
+        with self.lmp(f"ftp://{self.folder}") as lammps:
+            said, _ = lammps.communicate(timeout=WHOLE_RUN)
+        self.assertNotEqual(lammps.returncode, 0)
+        self.assertIn("grainstep/coupling", said)
 
 
 if __name__ == "__main__":
