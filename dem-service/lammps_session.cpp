@@ -29,6 +29,7 @@ namespace grainstep::dem {
 LammpsSession::LammpsSession(MPI_Comm communicator, const std::string& log) : communicator_(communicator) {
   std::vector<std::string> words{"grainstep-dem", "-log", log.empty() ? "none" : log, "-screen", "none", "-nocite"};
   std::vector<char*> arguments;
+  arguments.reserve(words.size());
   for (std::string& word : words) arguments.push_back(word.data());
   handle_ = lammps_open(static_cast<int>(arguments.size()), arguments.data(), communicator, nullptr);
   if (handle_ == nullptr) throw NumericalError("LAMMPS could not be started");
