@@ -50,7 +50,7 @@ Answers ask(const scene::Scene& scene, std::uint64_t hash, const RunOptions& opt
     session.abandon(error.what(), "");
     throw;
   }
-  const Answers answers{.impactor = answer_of(hub.impactor(), no_impactor),
+  Answers answers{.impactor = answer_of(hub.impactor(), no_impactor),
                         .structure = answer_of(hub.structure(), no_structure)};
   supervision.end_all(patience_at_the_end);
   return answers;
