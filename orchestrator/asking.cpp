@@ -51,7 +51,7 @@ Answers ask(const scene::Scene& scene, std::uint64_t hash, const RunOptions& opt
     throw;
   }
   Answers answers{.impactor = answer_of(hub.impactor(), no_impactor),
-                        .structure = answer_of(hub.structure(), no_structure)};
+                  .structure = answer_of(hub.structure(), no_structure)};
   supervision.end_all(patience_at_the_end);
   return answers;
 }
