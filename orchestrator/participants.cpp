@@ -9,6 +9,17 @@
 #include "process/launch.hpp"
 
 namespace grainstep::orchestrator {
+namespace {
+
+/// What was said about connections that may leave this host: checked before anything starts, and used when it does.
+transport::ZmqOptions security(const RunOptions& options) {
+  transport::ZmqOptions zmq;
+  zmq.curve_dir = options.curve_dir;
+  zmq.allow_plain_tcp = options.allow_plain_tcp;
+  return zmq;
+}
+
+}  // namespace
 
 std::string next_port(const std::string& endpoint) {
   const std::size_t colon = endpoint.rfind(':');
@@ -53,10 +64,7 @@ void check_deck(const scene::Scene& scene, const RunOptions& options) {
 
 void check_connection(const scene::Scene& scene, const RunOptions& options) {
   if (!options.listen.empty()) {
-    transport::ZmqOptions zmq;
-    zmq.curve_dir = options.curve_dir;
-    zmq.allow_plain_tcp = options.allow_plain_tcp;
-    transport::check_endpoint(options.listen, transport::Use::listen, zmq);
+    transport::check_endpoint(options.listen, transport::Use::listen, security(options));
     if (!transport::is_tcp(options.listen)) {
       throw InputError("--listen " + options.listen +
                        ": expected tcp://HOST:PORT; without --listen, participants connect over a local socket");
@@ -93,13 +101,9 @@ std::string Participants::endpoint_of(const Side& side) const {
 }
 
 void Participants::open(Side& side) {
-  transport::ZmqOptions zmq;
-  zmq.peer = name_of(side.role);
   const std::string endpoint = endpoint_of(side);
-  if (transport::is_tcp(endpoint)) {
-    zmq.curve_dir = options_.curve_dir;
-    zmq.allow_plain_tcp = options_.allow_plain_tcp;
-  }
+  transport::ZmqOptions zmq = transport::is_tcp(endpoint) ? security(options_) : transport::ZmqOptions{};
+  zmq.peer = name_of(side.role);
   side.channel = transport::ZmqChannel::bind(endpoint, zmq);
 }
 

@@ -46,6 +46,17 @@ TEST(MpiCommand, more_ranks_than_cores_are_allowed) {
   EXPECT_THAT(command.environment, ::testing::Contains(std::pair<std::string, std::string>("KEY", "value")));
 }
 
+TEST(MpiCommand, as_many_ranks_as_asked_for) {
+  TemporaryDirectory directory;
+  const std::string script = "touch " + (directory.path() / "rank-$OMPI_COMM_WORLD_RANK").string();
+  ChildProcess mpirun("impactor", mpi_command(3, {"/bin/sh", {"-c", script}, {}}), directory.path() / "log");
+  ASSERT_TRUE(mpirun.wait(testing::patience));
+  EXPECT_EQ(mpirun.describe_end(), "exited with code 0");
+  for (const char* name : {"rank-0", "rank-1", "rank-2"})
+    EXPECT_TRUE(std::filesystem::exists(directory.path() / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "rank-3"));
+}
+
 TEST(MpiCommand, no_rank_outlives_a_killed_mpirun) {
   TemporaryDirectory directory;
   const auto pipe = directory.path() / "ranks";

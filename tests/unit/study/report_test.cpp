@@ -27,6 +27,9 @@ findings:
   - { statement: no pressure, on: seeds/seed=1, value: early_pressure, at_most: 9 }
   - { statement: later, on: far, value: peak_deflection, at_least: 0 }
   - { statement: never, on: bad, value: impactor.slug.seed, at_least: 0 }
+  - { statement: just near, on: seeds/seed=1, value: peak_deflection, expected: 0.1009, tolerance: 0.01 }
+  - { statement: just off, on: seeds/seed=1, value: peak_deflection, expected: 0.1011, tolerance: 0.01 }
+  - { statement: off from nothing, on: seeds/seed=1, value: peak_deflection, expected: 0, tolerance: 0.09 }
 series_columns:
   - { name: w, title: mean of w, value: mean(peak_deflection) }
   - { name: scatter, value: deviation(peak_deflection), hidden: true }
@@ -72,7 +75,8 @@ TEST_F(ReportTest, ColumnsAreNumbersOfRunsAndFormulasOverThem) {
 TEST_F(ReportTest, FindingsHoldFailOrWait) {
   using State = Verdict::State;
   const std::vector<State> expected = {State::holds, State::fails, State::reported,
-                                       State::fails, State::open,  State::fails};
+                                       State::fails, State::open,  State::fails,
+                                       State::holds, State::fails, State::fails};
   ASSERT_EQ(verdicts_.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(verdicts_[i].state, expected[i]) << i;
   EXPECT_NEAR(verdicts_[0].value, 0.2, 1e-15);
