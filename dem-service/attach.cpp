@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "dem-service/lammps_adapter.hpp"
+#include "dem-service/rank_exchange.hpp"
 #include "dem-service/surface_fix.hpp"
 
 namespace grainstep::dem {

@@ -39,6 +39,12 @@ class PlaneContacts {
   void apply(const ParticleArrays& particles) const;
   void end_interval(const ParticleArrays& particles, double dt);
 
+  /// Those that touched at the last evaluation.
+  template <typename Use>
+  void each_touching(Use&& use) const {
+    for (const Contact& contact : contacts_) use(contact.particle);
+  }
+
   /// Its work is zero in sum: what the springs store and the dashpots take is the particles' own.
   [[nodiscard]] const InterfaceLedger& ledger() const { return ledger_; }
   [[nodiscard]] double stored() const { return stored_; }  ///< J, at the last evaluation

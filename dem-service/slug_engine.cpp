@@ -10,7 +10,6 @@
 #include "dem-service/lammps_adapter.hpp"
 #include "dem-service/pair/style.hpp"
 #include "dem-service/preview.hpp"
-#include "surface/disc_overlap.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -29,22 +28,14 @@ std::string text_of(const char* format, ...) {
   return buffer;
 }
 
-SlugModel model_of(const wire::Setup& setup) {
-  const wire::ImpactorSetup& part = setup.impactor();
-  SlugModel model = make_slug_model(part.impactor(), setup.symmetry(), setup.depth(), setup.mirror());
-  meet(model, part.impactor().slug().surface_contact(), part.free_mass(),
-       mean_length(MovingSurface(part.surface()).now()));
-  return model;
-}
-
 }  // namespace
 
 SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup)
-    : SlugEngine(options, setup, lay_out(model_of(setup), MovingSurface(setup.impactor().surface()).now())) {}
+    : SlugEngine(options, setup, lay_out(slug_model_of(setup), MovingSurface(setup.impactor().surface()).now())) {}
 
 SlugEngine::SlugEngine(const EngineOptions& options, const wire::Setup& setup,
                        const std::vector<PlacedParticle>& particles)
-    : model_(model_of(setup)),
+    : model_(slug_model_of(setup)),
       communicator_(options.communicator),
       session_(options.communicator, options.lammps_log),
       setup_(setup.impactor()),

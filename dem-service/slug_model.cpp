@@ -8,7 +8,9 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "contact/moving_surface.hpp"
 #include "dem-service/packing.hpp"
+#include "surface/disc_overlap.hpp"
 
 namespace grainstep::dem {
 namespace {
@@ -208,6 +210,14 @@ void meet(SlugModel& model, const scene::SurfaceContact& contact, double free_ma
   const bool fine = model.largest() > widest_point_contact * facet;
   model.chord =
       contact.spreading() == Contact::SPREADING_CHORD || (contact.spreading() != Contact::SPREADING_POINT && fine);
+}
+
+SlugModel slug_model_of(const wire::Setup& setup) {
+  const wire::ImpactorSetup& part = setup.impactor();
+  SlugModel model = make_slug_model(part.impactor(), setup.symmetry(), setup.depth(), setup.mirror());
+  meet(model, part.impactor().slug().surface_contact(), part.free_mass(),
+       mean_length(contact::MovingSurface(part.surface()).now()));
+  return model;
 }
 
 namespace {

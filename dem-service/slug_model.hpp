@@ -6,7 +6,7 @@
 
 #include "contact/contact_law.hpp"
 #include "dem-service/damping.hpp"
-#include "grainstep/scene.pb.h"
+#include "grainstep/wire.pb.h"
 #include "scene/sizes.hpp"
 
 namespace grainstep::dem {
@@ -72,6 +72,9 @@ struct SlugModel {
 /// The slug in front of this target: a free one of `free_mass` (kg, of what is modelled) rebounds itself, and a surface
 /// with elements of `facet` (m, on the mean) takes forces at points or over chords, as the scene says.
 void meet(SlugModel& model, const scene::SurfaceContact& contact, double free_mass, double facet);
+
+/// The slug of a Setup, in front of the surface that it brings. Throws InputError.
+[[nodiscard]] SlugModel slug_model_of(const wire::Setup& setup);
 
 /// Elements narrower than the largest particle over this are too fine for contact at a point, m/m:
 /// docs/decisions/0015-contact-over-a-chord.md.

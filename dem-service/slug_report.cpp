@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace grainstep::dem {
 namespace {
 
 template <typename Doubles>
-Doubles reduced(const Doubles& mine, MPI_Op operation, MPI_Comm communicator) {
+constexpr int count_of = static_cast<int>(sizeof(Doubles) / sizeof(double));
+
+template <typename Doubles>
+double* values_of(Doubles& all) {
   static_assert(sizeof(Doubles) % sizeof(double) == 0);
-  Doubles all = mine;
-  MPI_Reduce(&mine, &all, static_cast<int>(sizeof(Doubles) / sizeof(double)), MPI_DOUBLE, operation, 0, communicator);
-  return all;
+  return reinterpret_cast<double*>(&all);
 }
 
 void observe(wire::Report& report, const char* name, const char* unit, double value) {
@@ -63,10 +65,14 @@ void add_particles(const SlugModel& model, const ParticleArrays& particles, Repo
   maxima.speed = std::max(maxima.speed, std::sqrt(fastest));
 }
 
-ReportSums summed(const ReportSums& sums, MPI_Comm communicator) { return reduced(sums, MPI_SUM, communicator); }
+ReportSums summed(ReportSums sums, const Exchange& exchange) {
+  exchange.sum(values_of(sums), count_of<ReportSums>);
+  return sums;
+}
 
-ReportMaxima largest(const ReportMaxima& maxima, MPI_Comm communicator) {
-  return reduced(maxima, MPI_MAX, communicator);
+ReportMaxima largest(ReportMaxima maxima, const Exchange& exchange) {
+  exchange.largest(values_of(maxima), count_of<ReportMaxima>);
+  return maxima;
 }
 
 namespace {
@@ -124,23 +130,6 @@ namespace {
 
 constexpr int snapshot_values = 11;  // identity, radius, position, velocity, spin
 
-std::vector<double> gathered(const std::vector<double>& mine, MPI_Comm communicator) {
-  int ranks = 1;
-  MPI_Comm_size(communicator, &ranks);
-  const int count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks));
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, communicator);
-  std::vector<int> offsets;
-  int total = 0;
-  for (const int of_rank : counts) {
-    offsets.push_back(total);
-    total += of_rank;
-  }
-  std::vector<double> all(static_cast<std::size_t>(total));
-  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE, 0, communicator);
-  return all;
-}
-
 wire::Field& field(wire::Snapshot& snapshot, const char* name, const char* unit, unsigned components) {
   wire::Field& added = *snapshot.add_point_field();
   added.set_name(name);
@@ -151,7 +140,7 @@ wire::Field& field(wire::Snapshot& snapshot, const char* name, const char* unit,
 
 }  // namespace
 
-void gather_snapshot(const SlugModel& model, const ParticleArrays& particles, MPI_Comm communicator,
+void gather_snapshot(const SlugModel& model, const ParticleArrays& particles, const Exchange& exchange,
                      wire::Snapshot& snapshot) {
   std::vector<double> mine;
   mine.reserve(static_cast<std::size_t>(snapshot_values) * static_cast<std::size_t>(particles.owned));
@@ -161,7 +150,7 @@ void gather_snapshot(const SlugModel& model, const ParticleArrays& particles, MP
       mine.insert(mine.end(), a, a + 3);
     }
   }
-  const std::vector<double> all = gathered(mine, communicator);
+  const std::vector<double> all = exchange.gathered(std::move(mine));
   std::vector<const double*> rows;
   for (std::size_t i = 0; i < all.size(); i += snapshot_values) rows.push_back(&all[i]);
   std::sort(rows.begin(), rows.end(), [](const double* a, const double* b) { return a[0] < b[0]; });

@@ -1,13 +1,12 @@
-/// @file A slug's Report and Snapshot, summed over all ranks on rank 0.
+/// @file A slug's Report and Snapshot, of all processes that share it.
 #pragma once
-
-#include <mpi.h>
 
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "contact/surface_contacts.hpp"
+#include "dem-service/exchange.hpp"
 #include "dem-service/pair/contacts.hpp"
 #include "dem-service/plane_contacts.hpp"
 #include "dem-service/slug_model.hpp"
@@ -56,16 +55,16 @@ class DissipationGuard {
 /// Kinetic energy, momentum, extent: what needs only the particles. Velocities at t(n).
 void add_particles(const SlugModel& model, const ParticleArrays& particles, ReportSums& sums, ReportMaxima& maxima);
 
-/// Collective; the result counts on rank 0.
-[[nodiscard]] ReportSums summed(const ReportSums& sums, MPI_Comm communicator);
-[[nodiscard]] ReportMaxima largest(const ReportMaxima& maxima, MPI_Comm communicator);
+/// Over all processes; the result counts on the root.
+[[nodiscard]] ReportSums summed(ReportSums sums, const Exchange& exchange);
+[[nodiscard]] ReportMaxima largest(ReportMaxima maxima, const Exchange& exchange);
 
 /// Of a slice: everything that is a sum, times the full circle over the slice. docs/theory/step.md has what is reported
 /// as momentum along r.
 void fill_report(const SlugModel& model, const ReportSums& sums, const ReportMaxima& maxima, wire::Report& report);
 
-/// Collective; filled on rank 0, in the order of identities, so that it does not depend on the number of ranks.
-void gather_snapshot(const SlugModel& model, const ParticleArrays& particles, MPI_Comm communicator,
+/// Filled on the root, in the order of identities, so that it does not depend on the number of processes.
+void gather_snapshot(const SlugModel& model, const ParticleArrays& particles, const Exchange& exchange,
                      wire::Snapshot& snapshot);
 
 }  // namespace grainstep::dem

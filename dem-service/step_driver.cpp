@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "participant/schedule.hpp"
@@ -24,7 +25,7 @@ SurfaceContactSettings contact_settings(const SlugModel& model, const StepSettin
 }  // namespace
 
 StepDriver::StepDriver(const SlugModel& model, const wire::Start& start, const StepSettings& settings,
-                       MovingSurface surface, RankExchange& exchange)
+                       MovingSurface surface, Exchange& exchange)
     : model_(model),
       start_(start),
       settings_(settings),
@@ -120,6 +121,12 @@ void StepDriver::after_pair_forces(std::uint64_t step, const ParticleArrays& par
   for (const PlaneContacts& plane : planes_) plane.apply(particles);
 }
 
+double StepDriver::top_of_surface() const {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const surface::Vec2& node : surface_.now().nodes()) top = std::max(top, node[1]);
+  return top;
+}
+
 participant::Due StepDriver::due_after(std::uint64_t step) const {
   if (step % start_.impactor_steps() != 0) return {};
   return participant::due_at(start_, step / start_.impactor_steps());
@@ -137,7 +144,7 @@ void StepDriver::end_of_step(std::uint64_t step, const ParticleArrays& particles
   if (due.snapshot) {
     wire::Snapshot snapshot;
     snapshot.set_window(window);
-    gather_snapshot(model_, particles, exchange_.communicator(), snapshot);
+    gather_snapshot(model_, particles, exchange_, snapshot);
     if (exchange_.is_root()) exchange_.send(static_cast<const wire::Snapshot&>(snapshot));
   }
 }
@@ -171,8 +178,8 @@ void StepDriver::report(std::uint64_t window, std::uint64_t step, const Particle
     for (std::size_t c = 0; c < 3; ++c) sums.plane_impulse[c] += plane.ledger().impulse[c];
     maxima.overlap = std::max(maxima.overlap, plane.take_largest_overlap());
   }
-  const ReportSums all = summed(sums, exchange_.communicator());
-  const ReportMaxima most = largest(maxima, exchange_.communicator());
+  const ReportSums all = summed(sums, exchange_);
+  const ReportMaxima most = largest(maxima, exchange_);
   if (!exchange_.is_root()) return;
 
   wire::Report message;

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "dem-service/rank_exchange.hpp"
+#include "dem-service/exchange.hpp"
 #include "dem-service/slug_model.hpp"
 #include "dem-service/slug_report.hpp"
 
@@ -22,7 +22,7 @@ struct StepSettings {
 class StepDriver {
  public:
   StepDriver(const SlugModel& model, const wire::Start& start, const StepSettings& settings, MovingSurface surface,
-             RankExchange& exchange);
+             Exchange& exchange);
 
   void rebuild(const ParticleArrays& particles);
 
@@ -34,6 +34,20 @@ class StepDriver {
 
   /// Velocities at t(n). `pairs`: of this rank's contacts between particles.
   void end_of_step(std::uint64_t step, const ParticleArrays& particles, const PairEnergy& pairs);
+
+  /// Particles whose velocity end_of_step() looks at in this step: all of them, or those that touch.
+  [[nodiscard]] bool looks_at_all(std::uint64_t step) const {
+    const participant::Due due = due_after(step);
+    return due.report || due.snapshot;
+  }
+  template <typename Use>
+  void each_touching(Use&& use) const {
+    contacts_.each_touching(use);
+    for (const PlaneContacts& plane : planes_) plane.each_touching(use);
+  }
+
+  /// m, x2 of the surface's highest node now.
+  [[nodiscard]] double top_of_surface() const;
 
   /// No further step is wanted.
   [[nodiscard]] bool ended() const { return ended_; }
@@ -51,7 +65,7 @@ class StepDriver {
   wire::Start start_;
   StepSettings settings_;
   MovingSurface surface_;
-  RankExchange& exchange_;
+  Exchange& exchange_;
   SurfaceContacts contacts_;
   std::vector<PlaneContacts> planes_;  ///< mirror and walls
   double largest_pair_overlap_ = 0.0;  ///< over the diameter, since the last report

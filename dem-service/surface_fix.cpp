@@ -19,7 +19,7 @@ SurfaceFix::SurfaceFix(lammps::Instance* lammps, int argument_count, char** argu
   follow_particles();
 }
 
-void SurfaceFix::connect(StepDriver& driver, RankExchange& exchange, bool own_pair_style) {
+void SurfaceFix::connect(StepDriver& driver, Exchange& exchange, bool own_pair_style) {
   driver_ = &driver;
   exchange_ = &exchange;
   own_pair_style_ = own_pair_style;

@@ -17,7 +17,7 @@ class SurfaceFix : public lammps::ParticleFix {
   SurfaceFix(lammps::Instance* lammps, int argument_count, char** arguments);
 
   /// Both outlive the run. `own_pair_style`: there are energies of contacts between particles to report.
-  void connect(StepDriver& driver, RankExchange& exchange, bool own_pair_style);
+  void connect(StepDriver& driver, Exchange& exchange, bool own_pair_style);
 
   int setmask() override;
 
@@ -43,7 +43,7 @@ class SurfaceFix : public lammps::ParticleFix {
   void guarded(Work&& work);
 
   StepDriver* driver_ = nullptr;
-  RankExchange* exchange_ = nullptr;
+  Exchange* exchange_ = nullptr;
   bool own_pair_style_ = true;
   std::uint64_t first_step_ = 0;  ///< LAMMPS's count at the start; a script may have set one of its own
   std::vector<surface::Vec3> springs_;

@@ -62,6 +62,12 @@ class SurfaceContacts {
   /// Second half of the interval that ends at this evaluation; velocities at t(n).
   void end_interval(const ParticleArrays& particles, const MovingSurface& surface, double dt);
 
+  /// Those that touched at the last evaluation.
+  template <typename Use>
+  void each_touching(Use&& use) const {
+    for (const Contact& contact : contacts_) use(contact.particle);
+  }
+
   [[nodiscard]] const InterfaceLedger& ledger() const { return ledger_; }
   [[nodiscard]] std::size_t count() const { return contacts_.size(); }
   [[nodiscard]] double stored_normal() const { return stored_normal_; }          ///< J, at the last evaluation

@@ -22,7 +22,7 @@ class OneParticle {
         model_(model()),
         start_(start_of(model_.preferred_step, 2)),
         link_(setup_, start_, motion),
-        exchange_((start_mpi(), MPI_COMM_SELF), &link_, 2),
+        exchange_(&link_, 2),
         driver_(model_, every_step(start_), {.dt = model_.preferred_step, .margin = 1e-3},
                 MovingSurface(setup_.impactor().surface()), exchange_) {
     mass_ = model_.mass;
@@ -80,7 +80,7 @@ class OneParticle {
   SlugModel model_;
   wire::Start start_;
   ScriptedLink link_;
-  RankExchange exchange_;
+  Exchange exchange_;
   StepDriver driver_;
   std::array<double, 3> position_{0.0, 0.05, 0.0}, spin_{}, force_{}, torque_{};
   const double* position_at_ = position_.data();
