@@ -1,16 +1,21 @@
-/// @file What the coupling costs on the particles' side: the slug with our surface contact, mirror plane and ledger,
-/// against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that both see the same machine.
-///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions]
+/// @file What a step of the particles costs: the slug with our surface contact, mirror plane and ledger, in LAMMPS and in
+/// the native engine, against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that all see the
+/// same machine.
+///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions] [native|lammps|plain for one alone]
 /// Times are CPU seconds of this process; the median of the repetitions counts.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../tests/unit/dem-service/engine_rig.hpp"
 #include "bench/plain_slug.hpp"
+#include "dem-service/native/impactor.hpp"
 
 namespace {
 
@@ -50,14 +55,25 @@ class TimedLink final : public participant::ImpactorLink {
   double began_ = 0.0;
 };
 
-double coupled(const Job& job) {
+void run_lammps(const Job& job, const wire::Start& start, participant::ImpactorLink& link) {
+  SlugEngine(rig::alone(), job.setup).run(start, &link);
+}
+
+void run_native(const Job& job, const wire::Start& start, participant::ImpactorLink& link) {
+  const auto impactor = native::make_impactor();
+  static_cast<void>(impactor->prepare(job.setup));
+  impactor->run(start, link);
+}
+
+using Engine = void (*)(const Job& job, const wire::Start& start, participant::ImpactorLink& link);
+
+double coupled(const Job& job, Engine engine) {
   wire::Start start = rig::start_of(job.dt, job.warm_up + job.steps);
   start.set_report_every(100);
   start.set_snapshot_every(0);
   rig::ScriptedLink script(job.setup, start, rig::at_rest());
   TimedLink link(job, script);
-  SlugEngine engine(rig::alone(), job.setup);
-  engine.run(start, &link);
+  engine(job, start, link);
   return (cpu_seconds() - link.began()) / static_cast<double>(job.steps);
 }
 
@@ -90,16 +106,19 @@ int main(int argc, char** argv) {
   job.dt = model.preferred_step;
   job.warm_up = static_cast<std::uint64_t>(argument(2, 1500));
   job.steps = static_cast<std::uint64_t>(argument(3, 2000));
-  std::vector<double> with;
-  std::vector<double> without;
+  const std::string only = argc > 5 ? argv[5] : "";
+  const std::pair<std::string, std::function<double()>> engines[] = {
+      {"plain", [&job] { return plain(job); }},
+      {"lammps", [&job] { return coupled(job, run_lammps); }},
+      {"native", [&job] { return coupled(job, run_native); }}};
+  std::map<std::string, std::vector<double>> times;
   for (int i = 0; i < static_cast<int>(argument(4, 3)); ++i) {
-    without.push_back(plain(job));
-    with.push_back(coupled(job));
-    std::printf("%2d  plain %8.1f us/step  coupled %8.1f us/step\n", i, 1e6 * without.back(), 1e6 * with.back());
+    for (const auto& [name, run] : engines) {
+      if (only.empty() || only == name) times[name].push_back(run() * 1e9 / static_cast<double>(model.particles));
+    }
   }
-  const double per_particle = 1e9 / static_cast<double>(model.particles);
-  std::printf("%llu particles: plain %.0f, coupled %.0f ns per particle and step, ratio %.3f\n",
-              static_cast<unsigned long long>(model.particles), median(without) * per_particle,
-              median(with) * per_particle, median(with) / median(without));
+  std::printf("%llu particles, ns per particle and step:", static_cast<unsigned long long>(model.particles));
+  for (const auto& [name, of_runs] : times) std::printf(" %s %.1f", name.c_str(), median(of_runs));
+  std::printf("\n");
   return 0;
 }

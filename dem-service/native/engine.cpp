@@ -1,0 +1,255 @@
+#include "dem-service/native/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "dem-service/native/contacts.hpp"
+#include "dem-service/native/flight.hpp"
+#include "dem-service/native/neighbours.hpp"
+#include "dem-service/step_driver.hpp"
+
+namespace grainstep::dem::native {
+namespace {
+
+using surface::Vec3;
+
+// What grains may move until the list is made anew, over the mean diameter. Longer lists cost in every step, making them
+// costs now and then: docs/decisions/0019 has the measurements.
+constexpr double slow_allowance = 0.35;
+constexpr double fast_allowance = 1.0;
+// Sleepers are woken when something is so near, and all of them at once that are no further than this.
+constexpr double room_to_wake = 0.25;
+constexpr double room_awake = 3.0;
+
+PairLaw pair_law(const ContactLaw& law) {
+  return {.normal_stiffness = law.normal_stiffness,
+          .tangential_stiffness = law.tangential_stiffness,
+          .damping_rate = law.damping_rate,
+          .friction = law.friction,
+          .damping_table = law.damping_table.get()};
+}
+
+template <int D>
+PairFeatures features_of(const SlugModel& model) {
+  return {.dimension = D,
+          .friction = model.pair_law.friction > 0.0 && model.pair_law.tangential_stiffness > 0.0,
+          .energy = true,
+          .mixed = !model.sizes.equal()};
+}
+
+/// One run.
+template <int D>
+class Run {
+ public:
+  Run(const SlugModel& model, const wire::ImpactorSetup& setup, const wire::Start& start,
+      participant::ImpactorLink& link, std::vector<PlacedParticle> particles)
+      : start_(start),
+        dt_(start.window() / start.impactor_steps()),
+        diameter_(model.diameter),
+        law_(calibrated_pair_law(model, dt_)),
+        flight_(model, particles),
+        grains_(model, particles),
+        neighbours_(sweeps_, {slow_allowance * model.diameter, fast_allowance * model.diameter}),
+        contacts_(pair_law(law_), features_of<D>(model), sweeps_, grains_),
+        exchange_(&link, MovingSurface(setup.surface()).node_count()),
+        driver_(model, start, {.dt = dt_, .margin = model.diameter}, MovingSurface(setup.surface()), exchange_) {}
+
+  void run() {
+    try {
+      rebuild(0);
+      forces(0);
+      const std::uint64_t steps = start_.windows() * start_.impactor_steps();
+      for (std::uint64_t n = 1; n <= steps && !driver_.ended(); ++n) {
+        move(n);
+        forces(n);
+      }
+    } catch (...) {
+      exchange_.fail_with_current_exception();
+    }
+    exchange_.finish();
+  }
+
+ private:
+  [[nodiscard]] double time_of(std::uint64_t step) const { return static_cast<double>(step) * dt_; }
+  [[nodiscard]] contact::ParticleArrays arrays() { return grains_.arrays(flight_.awake()); }
+
+  void move(std::uint64_t n) {
+    const double kick = n == 1 ? dt_ / 2.0 : dt_;
+    used_slow_ += dt_ * grains_.move(sweeps_, 0, neighbours_.slow(), frame_, kick, dt_);
+    used_fast_ += dt_ * grains_.move(sweeps_, neighbours_.slow(), flight_.awake(), frame_, kick, dt_);
+    frame_moved_ += dt_ * norm(frame_);
+    const bool old = !(used_slow_ <= slow_allowance * diameter_) || !(used_fast_ <= fast_allowance * diameter_) ||
+                     !(std::max(used_slow_, used_fast_) + frame_moved_ <= diameter_);
+    if (old || something_near_sleepers(n)) rebuild(n);
+  }
+
+  [[nodiscard]] bool flies(std::int32_t i) const {
+    const double* v = grains_.velocity(i);
+    const Vec3& free = flight_.velocity();
+    return v[0] == free[0] && v[1] == free[1] && (D == 2 || v[2] == free[2]);
+  }
+
+  /// m, of the hindmost of [first, last) that does not fly freely any more.
+  [[nodiscard]] double front_of(std::int32_t first, std::int32_t last, double time) const {
+    double front = -std::numeric_limits<double>::infinity();
+    for (std::int32_t i = first; i < last; ++i) {
+      if (!flies(i)) front = std::max(front, flight_.behind(grains_.position(i), time) + grains_.radius(i));
+    }
+    return front;
+  }
+
+  [[nodiscard]] bool something_near_sleepers(std::uint64_t n) const {
+    if (flight_.all_awake()) return false;
+    const double time = time_of(n);
+    const double slow = front_slow_ + used_slow_ + (time - built_at_) * norm(frame_ - flight_.velocity());
+    const double front = std::max(slow, front_of(neighbours_.slow(), flight_.awake(), time));
+    const double room = room_to_wake * diameter_ + dt_ * norm(flight_.velocity());
+    return flight_.near(front, driver_.top_of_surface(), time, room);
+  }
+
+  void wake(double time) {
+    if (flight_.all_awake()) return;
+    const std::int32_t before = flight_.awake();
+    const double front = front_of(0, before, time);
+    const std::int32_t after = flight_.wake(front, driver_.top_of_surface(), time, room_awake * diameter_);
+    place_sleepers(before, after, time);
+  }
+
+  void place_sleepers(std::int32_t first, std::int32_t last, double time) {
+    for (std::int32_t i = first; i < last; ++i) {
+      const Vec3 place = flight_.place(i, time);
+      std::copy_n(place.c.begin(), D, grains_.position(i));
+    }
+  }
+
+  /// The mean velocity of those that do not fly freely any more.
+  [[nodiscard]] Vec3 mean_velocity() const {
+    Vec3 sum;
+    double count = 0.0;
+    for (std::int32_t i = 0; i < flight_.awake(); ++i) {
+      if (!flight_.all_awake() && flies(i)) continue;
+      for (std::size_t c = 0; c < D; ++c) sum[c] += grains_.velocity(i)[c];
+      count += 1.0;
+    }
+    return count > 0.0 ? sum * (1.0 / count) : flight_.velocity();
+  }
+
+  void choose_fast() {
+    const auto awake = static_cast<std::size_t>(flight_.awake());
+    fast_.assign(awake, 0);
+    speed_.assign(awake, 0.0);
+    double most = 0.0;
+    for (std::size_t i = 0; i < awake; ++i) {
+      for (std::size_t c = 0; c < D; ++c) {
+        const double v = grains_.velocity(static_cast<std::int32_t>(i))[c] - frame_[c];
+        speed_[i] += v * v;
+      }
+      most = std::max(most, speed_[i]);
+    }
+    constexpr double share = slow_allowance / fast_allowance;
+    for (std::size_t i = 0; i < awake; ++i) {
+      const bool flying = !flight_.all_awake() && flies(static_cast<std::int32_t>(i));
+      fast_[i] = flying || speed_[i] > share * share * most ? 1 : 0;
+    }
+  }
+
+  void rebuild(std::uint64_t n) {
+    const double time = time_of(n);
+    wake(time);
+    frame_ = mean_velocity();
+    choose_fast();
+    neighbours_.rebuild(grains_, flight_.awake(), fast_);
+    contacts_.follow(neighbours_);
+    front_slow_ = front_of(0, neighbours_.slow(), time);
+    used_slow_ = used_fast_ = frame_moved_ = 0.0;
+    built_at_ = time;
+    driver_.rebuild(arrays());
+  }
+
+  void forces(std::uint64_t n) {
+    driver_.before_pair_forces(n, arrays());
+    if (driver_.ended()) return;
+    contacts_.evaluate(grains_, neighbours_, n == 0 ? 0.0 : dt_);
+    driver_.after_pair_forces(n, arrays());
+    if (driver_.ended()) return;
+    end_step(n);
+  }
+
+  /// Velocities are kept half a step behind; who is looked at has them at t(n) while it is.
+  void end_step(std::uint64_t n) {
+    const bool all = driver_.looks_at_all(n);
+    looked_at_.clear();
+    if (n > 0 && all) {
+      for (std::int32_t i = 0; i < flight_.awake(); ++i) look_at(i);
+    } else if (n > 0) {
+      marked_.resize(static_cast<std::size_t>(grains_.count()));
+      driver_.each_touching([this](int i) {
+        if (std::exchange(marked_[static_cast<std::size_t>(i)], 1) == 0) look_at(i);
+      });
+      for (const auto& [i, speeds] : looked_at_) marked_[static_cast<std::size_t>(i)] = 0;
+    }
+    if (all) place_sleepers(flight_.awake(), grains_.count(), time_of(n));
+    driver_.end_of_step(n, all ? grains_.arrays(grains_.count()) : arrays(), contacts_.energy());
+    for (const auto& [i, speeds] : looked_at_) grains_.set_speeds(i, speeds);
+  }
+
+  void look_at(std::int32_t i) {
+    looked_at_.emplace_back(i, grains_.speeds(i));
+    grains_.kick_alone(i, dt_ / 2.0);
+  }
+
+  const Sweeps& sweeps_ = *available_sweeps().front();
+  wire::Start start_;
+  double dt_;
+  double diameter_;
+  ContactLaw law_;  ///< the pair law reads its table
+  Flight flight_;
+  Grains<D> grains_;
+  Neighbours<D> neighbours_;
+  Contacts<D> contacts_;
+  Exchange exchange_;
+  StepDriver driver_;
+
+  Vec3 frame_;  ///< m/s
+  double used_slow_ = 0.0, used_fast_ = 0.0;  ///< m, bounds on what grains have moved in the frame since the list was made
+  double frame_moved_ = 0.0;                  ///< m, what the frame has
+  double front_slow_ = 0.0;                   ///< m, of the slow ones when it was made
+  double built_at_ = 0.0;                     ///< s
+  std::vector<std::uint8_t> fast_, marked_;
+  std::vector<double> speed_;  ///< squared, in the frame
+  std::vector<std::pair<std::int32_t, typename Grains<D>::Speeds>> looked_at_;
+};
+
+template <int D>
+class EngineOf final : public Engine {
+ public:
+  EngineOf(const SlugModel& model, wire::ImpactorSetup setup, std::vector<PlacedParticle> particles)
+      : model_(model), setup_(std::move(setup)), particles_(std::move(particles)) {}
+
+  void run(const wire::Start& start, participant::ImpactorLink& link) override {
+    Run<D>(model_, setup_, start, link, particles_).run();
+  }
+
+ private:
+  SlugModel model_;
+  wire::ImpactorSetup setup_;
+  std::vector<PlacedParticle> particles_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_engine(const SlugModel& model, const wire::ImpactorSetup& setup,
+                                    std::vector<PlacedParticle> particles) {
+  if (particles.size() > std::numeric_limits<std::int32_t>::max()) {
+    throw InputError("impactor.slug: more than 2^31 particles");
+  }
+  SlugModel of_these = model;
+  of_these.particles = particles.size();
+  if (model.spheres()) return std::make_unique<EngineOf<3>>(of_these, setup, std::move(particles));
+  return std::make_unique<EngineOf<2>>(of_these, setup, std::move(particles));
+}
+
+}  // namespace grainstep::dem::native

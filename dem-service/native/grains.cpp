@@ -1,0 +1,140 @@
+#include "dem-service/native/grains.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace grainstep::dem::native {
+namespace {
+
+/// The first of `values` in a new order, through a copy that is kept.
+template <typename T>
+void rearrange(std::vector<T>& values, const std::vector<std::int32_t>& order) {
+  static thread_local std::vector<T> copy;
+  copy.resize(order.size());
+  for (std::size_t n = 0; n < order.size(); ++n) copy[n] = values[static_cast<std::size_t>(order[n])];
+  std::copy(copy.begin(), copy.end(), values.begin());
+}
+
+}  // namespace
+
+template <int D>
+Grains<D>::Grains(const SlugModel& model, const std::vector<PlacedParticle>& particles)
+    : states_(particles.size()),
+      forces_(particles.size() + 1),
+      places_(particles.size() * place_size<D>),
+      springs_(particles.size()),
+      mixed_(!model.sizes.equal()) {
+  for (std::size_t n = 0; n < particles.size(); ++n) {
+    const PlacedParticle& particle = particles[n];
+    const double diameter = particle.diameter > 0.0 ? particle.diameter : model.diameter;
+    const double mass = model.mass_of(diameter);
+    const double radius = diameter / 2.0;
+    radius_.push_back(radius);
+    mass_.push_back(mass);
+    per_mass_.push_back(1.0 / mass);
+    per_inertia_.push_back(1.0 / (model.gyration() * mass * radius * radius));
+    float_radius_.push_back(static_cast<float>(radius));
+    identity_.push_back(static_cast<std::int32_t>(n + 1));
+    largest_radius_ = std::max(largest_radius_, radius);
+    const auto i = static_cast<std::ptrdiff_t>(n);
+    for (std::size_t c = 0; c < D; ++c) {
+      position(i)[c] = particle.position[c];
+      velocity(i)[c] = particle.velocity[c];
+    }
+    state(i)[R::spin + 2] = particle.spin;
+  }
+  set_rows();
+}
+
+template <int D>
+void Grains<D>::set_rows() {
+  for (std::ptrdiff_t i = 0; i < count(); ++i) {
+    rows_[0].push_back(state(i) + R::position);
+    rows_[1].push_back(state(i) + R::velocity);
+    rows_[2].push_back(state(i) + R::spin);
+    rows_[3].push_back(force(i) + R::force);
+    rows_[4].push_back(force(i) + R::torque);
+  }
+}
+
+template <int D>
+contact::ParticleArrays Grains<D>::arrays(std::int32_t owned) {
+  return {.owned = owned,
+          .position = rows_[0].data(),
+          .velocity = rows_[1].data(),
+          .spin = rows_[2].data(),
+          .force = rows_[3].data(),
+          .torque = rows_[4].data(),
+          .radius = radius_.data(),
+          .mass = mass_.data(),
+          .identity = identity_.data(),
+          .spring = springs_.data()};
+}
+
+template <int D>
+void Grains<D>::reorder(const std::vector<std::int32_t>& order) {
+  rearrange(states_, order);
+  rearrange(identity_, order);
+  rearrange(springs_, order);
+  if (!mixed_) return;
+  rearrange(radius_, order);
+  rearrange(mass_, order);
+  rearrange(per_mass_, order);
+  rearrange(per_inertia_, order);
+  rearrange(float_radius_, order);
+}
+
+template <int D>
+void Grains<D>::set_origin(const double* origin, std::int32_t known) {
+  std::copy_n(origin, D, origin_);
+  for (std::ptrdiff_t i = 0; i < known; ++i) {
+    for (int c = 0; c < D; ++c) places_[i * place_size<D> + c] = static_cast<float>(position(i)[c] - origin_[c]);
+  }
+}
+
+template <int D>
+double Grains<D>::move(const Sweeps& sweeps, std::int32_t first, std::int32_t last, const surface::Vec3& frame,
+                       double kick, double drift) {
+  if (first == last) return 0.0;
+  Motion motion;
+  motion.rows = states_.front().value;
+  motion.forces = force(0);
+  motion.places = places_.data();
+  motion.per_mass = per_mass_.data();
+  motion.per_inertia = per_inertia_.data();
+  motion.kick = kick;
+  motion.drift = drift;
+  std::copy_n(frame.c.begin(), 3, motion.frame);
+  std::copy_n(origin_, 3, motion.origin);
+  motion.first = first;
+  motion.last = last;
+  return std::sqrt(sweeps.move[D - 2](motion));
+}
+
+template <int D>
+void Grains<D>::kick_alone(std::ptrdiff_t i, double kick) {
+  const auto n = static_cast<std::size_t>(i);
+  for (int c = 0; c < D; ++c) velocity(i)[c] += kick * per_mass_[n] * force(i)[R::force + c];
+  for (std::ptrdiff_t c = R::turn; c < 3; ++c) {
+    state(i)[R::spin + c] += kick * per_inertia_[n] * force(i)[R::torque + c];
+  }
+}
+
+template <int D>
+typename Grains<D>::Speeds Grains<D>::speeds(std::ptrdiff_t i) const {
+  Speeds out{};
+  std::copy_n(velocity(i), 3, out.value);
+  std::copy_n(spin(i), 3, out.value + 3);
+  return out;
+}
+
+template <int D>
+void Grains<D>::set_speeds(std::ptrdiff_t i, const Speeds& speeds) {
+  std::copy_n(speeds.value + 3, 3, state(i) + R::spin);
+  std::copy_n(speeds.value, 3, velocity(i));
+}
+
+template class Grains<2>;
+template class Grains<3>;
+
+}  // namespace grainstep::dem::native

@@ -1,0 +1,62 @@
+#include "dem-service/native/impactor.hpp"
+
+#include "base/assert.hpp"
+#include "base/error.hpp"
+#include "contact/moving_surface.hpp"
+#include "dem-service/native/engine.hpp"
+#include "dem-service/preview.hpp"
+#include "participant/hello.hpp"
+
+namespace grainstep::dem::native {
+namespace {
+
+void require_drivable(const wire::Start& start) {
+  if (start.first_window() != 0) {
+    throw InputError("grainstep-grains cannot continue a run: Start.first_window must be 0");
+  }
+  if (!(start.window() > 0.0) || start.impactor_steps() == 0) {
+    throw InputError("Start: window and impactor_steps must be above 0");
+  }
+}
+
+class Impactor final : public participant::ImpactorBackend {
+ public:
+  [[nodiscard]] wire::Hello describe() const override {
+    wire::Hello hello = participant::hello(wire::IMPACTOR, "grainstep-grains (native)", GRAINSTEP_VERSION, {2});
+    for (const char* word : {"slug", "plane_strain", "axisymmetric", "size_distribution", "tension_cutoff"})
+      hello.add_capabilities(word);
+    return hello;
+  }
+
+  [[nodiscard]] wire::Ready prepare(const wire::Setup& setup) override {
+    if (!setup.has_impactor()) {
+      throw InputError("setup: grainstep-grains is an impactor, but was sent a structure's part");
+    }
+    const scene::Impactor& impactor = setup.impactor().impactor();
+    if (impactor.type() != scene::Impactor::TYPE_SLUG) {
+      throw InputError("impactor.type: grainstep-grains computes `slug`, this scene has another one");
+    }
+    wire::Ready ready = preview(impactor, setup.symmetry(), setup.depth(), setup.mirror()).ready(setup.impactor().surface());
+    ready.set_scene_hash(setup.scene_hash());
+    if (setup.preview()) return ready;
+    const SlugModel model = slug_model_of(setup);
+    engine_ = make_engine(model, setup.impactor(),
+                          lay_out(model, contact::MovingSurface(setup.impactor().surface()).now()));
+    return ready;
+  }
+
+  void run(const wire::Start& start, participant::ImpactorLink& link) override {
+    GS_ASSERT(engine_ != nullptr, "run() before prepare()");
+    require_drivable(start);
+    engine_->run(start, link);
+  }
+
+ private:
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace
+
+std::unique_ptr<participant::ImpactorBackend> make_impactor() { return std::make_unique<Impactor>(); }
+
+}  // namespace grainstep::dem::native

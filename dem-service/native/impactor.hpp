@@ -1,0 +1,12 @@
+/// @file The native particle engine as a backend for participant::serve_impactor: slugs of discs or spheres, no LAMMPS.
+#pragma once
+
+#include <memory>
+
+#include "participant/backend.hpp"
+
+namespace grainstep::dem::native {
+
+[[nodiscard]] std::unique_ptr<participant::ImpactorBackend> make_impactor();
+
+}  // namespace grainstep::dem::native

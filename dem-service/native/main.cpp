@@ -1,0 +1,15 @@
+/// @file grainstep-grains: the native particle engine as a program.
+#include "dem-service/native/impactor.hpp"
+#include "participant/program.hpp"
+#include "participant/serve.hpp"
+
+int main(int argc, char** argv) {
+  grainstep::participant::Program program(
+      "grainstep-grains", GRAINSTEP_VERSION,
+      "grainstep-grains: particles for Grainstep, computed on this host by an engine of its own.");
+  if (const auto code = program.parse(argc, argv)) return *code;
+  return program.run([](grainstep::transport::Channel& channel) {
+    const auto impactor = grainstep::dem::native::make_impactor();
+    return grainstep::participant::serve_impactor(channel, *impactor);
+  });
+}

@@ -1,0 +1,137 @@
+/// @file The loops of sweeps.hpp, compiled once per instruction set: nothing here may be shared with other files, or one
+/// of them could run another one's instructions.
+#include "dem-service/native/sweeps.hpp"
+
+#include "dem-service/native/rows.hpp"
+
+namespace grainstep::dem::native {
+namespace {
+
+typedef std::int64_t Lanes __attribute__((vector_size(32)));
+
+[[gnu::always_inline]] inline Quad larger(Quad a, Quad b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline Quad& quad_at(double* at) { return *reinterpret_cast<Quad*>(at); }
+
+double move_discs(const Motion& m) {
+  using R = Row<2>;
+  const Quad frame{0.0, m.frame[0], m.frame[1], 0.0};
+  const Quad drift{m.drift, m.drift, 0.0, 0.0};
+  const double kick = m.kick;
+  const double x0 = m.origin[0];
+  const double y0 = m.origin[1];
+  Quad fastest{};
+  double* row = m.rows + m.first * R::size;
+  double* force = m.forces + m.first * R::force_size;
+  float* place = m.places + m.first * place_size<2>;
+  for (std::ptrdiff_t i = m.first; i < m.last; ++i) {
+    const double by_mass = kick * m.per_mass[i];
+    const Quad by{kick * m.per_inertia[i], by_mass, by_mass, 0.0};
+    const Quad velocity = quad_at(row + 4) + quad_at(force) * by;
+    quad_at(row + 4) = velocity;
+    const Quad position = quad_at(row) + __builtin_shuffle(velocity, Lanes{1, 2, 3, 3}) * drift;
+    quad_at(row) = position;
+    quad_at(force) = Quad{};
+    const Quad speed = velocity - frame;
+    fastest = larger(speed * speed, fastest);
+    place[0] = static_cast<float>(position[0] - x0);
+    place[1] = static_cast<float>(position[1] - y0);
+    row += R::size;
+    force += R::force_size;
+    place += place_size<2>;
+  }
+  return fastest[1] + fastest[2];
+}
+
+double move_spheres(const Motion& m) {
+  using R = Row<3>;
+  const Quad frame{m.frame[0], m.frame[1], m.frame[2], 0.0};
+  const Quad origin{m.origin[0], m.origin[1], m.origin[2], 0.0};
+  Quad fastest{};
+  double* row = m.rows + m.first * R::size;
+  double* force = m.forces + m.first * R::force_size;
+  float* place = m.places + m.first * place_size<3>;
+  for (std::ptrdiff_t i = m.first; i < m.last; ++i) {
+    const Quad velocity = quad_at(row + R::velocity) + quad_at(force) * (m.kick * m.per_mass[i]);
+    quad_at(row + R::velocity) = velocity;
+    quad_at(row + R::spin) += quad_at(force + R::torque) * (m.kick * m.per_inertia[i]);
+    const Quad position = quad_at(row) + velocity * m.drift;
+    quad_at(row) = position;
+    quad_at(force) = Quad{};
+    quad_at(force + R::torque) = Quad{};
+    const Quad speed = velocity - frame;
+    fastest = larger(speed * speed, fastest);
+    const Quad from = position - origin;
+    for (int c = 0; c < 4; ++c) place[c] = static_cast<float>(from[c]);
+    row += R::size;
+    force += R::force_size;
+    place += place_size<3>;
+  }
+  return fastest[0] + fastest[1] + fastest[2];
+}
+
+template <int D>
+[[gnu::always_inline]] inline float squared_distance(const float* a, const float* b) {
+  const float dx = a[0] - b[0];
+  const float dy = a[1] - b[1];
+  float sum = dx * dx + dy * dy;
+  if constexpr (D == 3) {
+    const float dz = a[2] - b[2];
+    sum += dz * dz;
+  }
+  return sum;
+}
+
+/// Without a branch: whether a pair touches cannot be foretold.
+template <int D, bool Mixed>
+[[gnu::always_inline]] inline std::ptrdiff_t filter(const float* places, const PairList& pairs, float reach,
+                                                    const float* radii, float slack, std::int32_t* found) {
+  std::ptrdiff_t count = 0;
+  float within = (reach + slack) * (reach + slack);
+  for (std::ptrdiff_t k = 0; k < pairs.count; ++k) {
+    const std::ptrdiff_t i = pairs.first[k];
+    const std::ptrdiff_t j = pairs.second[k];
+    const float squared = squared_distance<D>(places + i * place_size<D>, places + j * place_size<D>);
+    if constexpr (Mixed) {
+      const float own = radii[i] + radii[j] + slack;
+      within = own * own;
+    }
+    found[count] = static_cast<std::int32_t>(k);
+    count += squared < within ? 1 : 0;
+  }
+  return count;
+}
+
+template <int D>
+std::ptrdiff_t touching(const float* places, const PairList& pairs, float reach, const float* radii, float slack,
+                        std::int32_t* found) {
+  return radii != nullptr ? filter<D, true>(places, pairs, reach, radii, slack, found)
+                          : filter<D, false>(places, pairs, reach, radii, slack, found);
+}
+
+template <int D>
+std::ptrdiff_t near(const Candidates& c, std::int32_t* found) {
+  std::ptrdiff_t count = 0;
+  const float* place = c.places + c.grain * place_size<D>;
+  const float reach = c.reach[c.grain];
+  for (std::ptrdiff_t j = c.first; j < c.last; ++j) {
+    const float both = reach + c.reach[j];
+    found[count] = static_cast<std::int32_t>(j);
+    count += squared_distance<D>(place, c.places + j * place_size<D>) < both * both ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+#define GS_JOIN_(a, b) a##b
+#define GS_JOIN(a, b) GS_JOIN_(a, b)
+#define GS_TEXT_(a) #a
+#define GS_TEXT(a) GS_TEXT_(a)
+
+extern const Sweeps GS_JOIN(sweeps_, GRAINSTEP_NATIVE_ISA);
+const Sweeps GS_JOIN(sweeps_, GRAINSTEP_NATIVE_ISA) = {GS_TEXT(GRAINSTEP_NATIVE_ISA),
+                                                       {&move_discs, &move_spheres},
+                                                       {&touching<2>, &touching<3>},
+                                                       {&near<2>, &near<3>}};
+
+}  // namespace grainstep::dem::native
