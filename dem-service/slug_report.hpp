@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact/surface_contacts.hpp"
-#include "dem-service/pair/contacts.hpp"
+#include "dem-service/pair_energy.hpp"
 #include "dem-service/plane_contacts.hpp"
 #include "dem-service/slug_model.hpp"
 #include "grainstep/wire.pb.h"
