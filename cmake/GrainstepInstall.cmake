@@ -1,5 +1,6 @@
-# What `cmake --install` gives: the programs, and what a participant of one's own needs, in C++ (find_package(Grainstep),
-# target Grainstep::participant) or in any other language (the messages' declarations).
+# What `cmake --install` gives: the programs, and what a participant of one's own needs, in C++ (find_package(Grainstep):
+# Grainstep::participant, Grainstep::contact and, of the component `particles`, Grainstep::particles) or in any other
+# language (the messages' declarations).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -10,29 +11,58 @@ install(TARGETS grainstep_lammps LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COM
 install(FILES ${PROJECT_SOURCE_DIR}/examples/lammps/grainstep_lammps.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grainstep/lammps COMPONENT programs)
 
-# One library of the folders that a participant works with. Its users need Protobuf and ZeroMQ, and nothing of what the
-# programs need besides.
-set(participant_folders base proto transport wire participant participant_program)
-add_library(grainstep-participant)
-add_library(Grainstep::participant ALIAS grainstep-participant)
-foreach(folder IN LISTS participant_folders)
-  target_sources(grainstep-participant PRIVATE $<TARGET_OBJECTS:grainstep_${folder}>)
-endforeach()
-set_target_properties(grainstep-participant PROPERTIES EXPORT_NAME participant VERSION ${PROJECT_VERSION}
-  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} LINKER_LANGUAGE CXX)
-target_compile_features(grainstep-participant PUBLIC cxx_std_20)
 set(include_folder ${CMAKE_INSTALL_INCLUDEDIR}/grainstep)
-target_include_directories(grainstep-participant SYSTEM INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/common> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/proto>
-  $<INSTALL_INTERFACE:${include_folder}>)
-target_link_libraries(grainstep-participant PUBLIC protobuf::libprotobuf Threads::Threads
+
+# grainstep_exported(name FOLDERS ... HEADERS ... PUBLIC ... PRIVATE ...): a library of these libraries' objects,
+# Grainstep::name for its users. HEADERS are folders, of which all headers are installed, or single ones; PUBLIC are
+# libraries that its users link as well.
+function(grainstep_exported name)
+  cmake_parse_arguments(arg "" "EXPORT" "FOLDERS;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  add_library(grainstep-${name})
+  add_library(Grainstep::${name} ALIAS grainstep-${name})
+  foreach(folder IN LISTS arg_FOLDERS)
+    target_sources(grainstep-${name} PRIVATE $<TARGET_OBJECTS:grainstep_${folder}>)
+  endforeach()
+  set_target_properties(grainstep-${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} LINKER_LANGUAGE CXX)
+  target_compile_features(grainstep-${name} PUBLIC cxx_std_20)
+  target_include_directories(grainstep-${name} SYSTEM INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/common>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/proto> $<INSTALL_INTERFACE:${include_folder}>)
+  target_link_libraries(grainstep-${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  install(TARGETS grainstep-${name} EXPORT ${arg_EXPORT} COMPONENT development)
+  foreach(header IN LISTS arg_HEADERS)
+    if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${header})
+      install(DIRECTORY ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${include_folder} COMPONENT development
+        FILES_MATCHING PATTERN "*.hpp")
+    else()
+      string(REGEX REPLACE "^common/" "" place ${header})
+      cmake_path(GET place PARENT_PATH folder)
+      install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${include_folder}/${folder} COMPONENT development)
+    endif()
+  endforeach()
+endfunction()
+
+# What a participant works with. Its users need Protobuf, and nothing of what the programs need besides.
+grainstep_exported(participant EXPORT grainstep
+  FOLDERS base proto transport wire participant participant_program
+  HEADERS common/base common/transport common/wire common/participant
+  PUBLIC protobuf::libprotobuf Threads::Threads
   PRIVATE ${ZMQ_LINK_LIBRARIES} ${SODIUM_LINK_LIBRARIES} ${XXHASH_LINK_LIBRARIES})
 
-install(TARGETS grainstep-participant EXPORT grainstep COMPONENT development)
-foreach(folder base transport wire participant)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/common/${folder} DESTINATION ${include_folder} COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp")
-endforeach()
+# Contact of particles with the moving surface: law, forces, reactions, ledger.
+grainstep_exported(contact EXPORT grainstep
+  FOLDERS surface contact HEADERS common/surface common/contact PUBLIC grainstep-participant)
+
+# A scene's slug for a particle code: masses and laws, damping that fits the step, packing, preview; and the steps of
+# its windows with contact, exchange with the other side and reports. An export of its own: only its users need fmt.
+grainstep_exported(particles EXPORT grainstep_particles
+  FOLDERS scene_sizes dem_law dem_driver
+  HEADERS common/scene/sizes.hpp dem-service/damping.hpp dem-service/mpi_start.hpp dem-service/packing.hpp
+    dem-service/pair_energy.hpp dem-service/plane_contacts.hpp dem-service/preview.hpp dem-service/exchange.hpp
+    dem-service/slug_layout.hpp dem-service/slug_model.hpp dem-service/slug_report.hpp dem-service/step_driver.hpp
+  PUBLIC grainstep-contact PRIVATE fmt::fmt)
+
 foreach(name options scene wire)
   install(FILES ${PROJECT_BINARY_DIR}/proto/grainstep/${name}.pb.h DESTINATION ${include_folder}/grainstep
     COMPONENT development)
@@ -46,6 +76,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${CMAKE_INSTALL_DATA
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Grainstep)
 install(EXPORT grainstep NAMESPACE Grainstep:: FILE GrainstepTargets.cmake DESTINATION ${package_folder}
   COMPONENT development)
+install(EXPORT grainstep_particles NAMESPACE Grainstep:: FILE GrainstepParticlesTargets.cmake
+  DESTINATION ${package_folder} COMPONENT development)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/GrainstepConfig.cmake.in
   ${PROJECT_BINARY_DIR}/GrainstepConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/GrainstepConfigVersion.cmake COMPATIBILITY SameMinorVersion)

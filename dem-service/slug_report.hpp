@@ -7,7 +7,7 @@
 
 #include "contact/surface_contacts.hpp"
 #include "dem-service/exchange.hpp"
-#include "dem-service/pair/contacts.hpp"
+#include "dem-service/pair_energy.hpp"
 #include "dem-service/plane_contacts.hpp"
 #include "dem-service/slug_model.hpp"
 #include "grainstep/wire.pb.h"

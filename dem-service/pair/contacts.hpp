@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dem-service/pair/batch.hpp"
+#include "dem-service/pair_energy.hpp"
 
 namespace grainstep::dem {
 
@@ -23,15 +24,6 @@ struct PairArrays {
   double* torque = nullptr;          ///< N m
   const double* radius = nullptr;    ///< m
   const double* mass = nullptr;      ///< kg
-};
-
-/// What this rank's contacts have dissipated since t = 0 and store now, J.
-struct PairEnergy {
-  double damping = 0.0;            ///< dissipated by dashpots
-  double tangential = 0.0;         ///< into tangential springs and sliders
-  double stored_normal = 0.0;      ///< at the last evaluation
-  double stored_tangential = 0.0;  ///< likewise
-  double largest_overlap = 0.0;    ///< over the sum of the radii, at the last evaluation
 };
 
 class PairContacts {

@@ -78,14 +78,18 @@ void Spring::advance(const grainstep::wire::Forces& forces, grainstep::participa
     const bool first = steps_ == 0;
     const double spring = -stiffness_ * state_.x * step_ * (first ? 0.5 : 1.0);
     const double half = first ? 0.0 : 0.5;
+    const double before = state_.v;
     if (k == 0) {
       at_ = state_;
       at_.v += half * (impulse[1] + spring) / mass_;
+      at_.kinetic = 0.5 * mass_ * before * (2.0 * at_.v - before);
+      at_.work += half * impulse[1] * before;
       for (int c = 0; c < 2; ++c) at_.received[c] += half * impulse[c];
       at_.held[0] -= half * impulse[0];
       at_.held[1] += half * spring;
     }
     state_.v += (impulse[1] + spring) / mass_;
+    state_.work += 0.5 * impulse[1] * (before + state_.v);
     for (int c = 0; c < 2; ++c) state_.received[c] += impulse[c];
     state_.held[0] -= impulse[0];
     state_.held[1] += spring;
@@ -111,9 +115,9 @@ void Spring::report(grainstep::wire::Report& report) {
   for (const double p : at_.received) momentum.add_interface_impulse(p);
   for (const double p : at_.held) momentum.add_support_impulse(p);
   auto& energy = *report.mutable_energy();
-  energy.set_kinetic(0.5 * mass_ * at_.v * at_.v);
+  energy.set_kinetic(at_.kinetic);
   energy.set_elastic(0.5 * stiffness_ * at_.x * at_.x);
-  energy.set_interface_work(energy.kinetic() + energy.elastic());  // all that it has, it was given
+  energy.set_interface_work(at_.work);
   observe(report, "deflection", "m", -at_.x);
   observe(report, "peak_deflection", "m", -peak_);
   observe(report, "peak_deflection_time", "s", peak_time_);

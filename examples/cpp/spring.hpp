@@ -26,11 +26,13 @@ class Spring final : public grainstep::participant::StructureBackend {
 
  private:
   /// At t(n): velocities of the half steps before and after it, averaged; half of this step's impulses counts before
-  /// it.
+  /// it. The work of an impulse is booked with the velocities before and after it, half and half, and what moves has
+  /// the energy (1/2) M V(n-1/2) V(n+1/2): so the books close to round-off, from the first step of a sudden load on.
   struct State {
     double x = 0.0, v = 0.0;
-    double received[2] = {0.0, 0.0};  // N s, through the surface
-    double held[2] = {0.0, 0.0};      // N s, by the spring's foundation, and along x1 by its guide
+    double kinetic = 0.0, work = 0.0;  // J; done by the impulses
+    double received[2] = {0.0, 0.0};   // N s, through the surface
+    double held[2] = {0.0, 0.0};       // N s, by the spring's foundation, and along x1 by its guide
   };
   [[nodiscard]] grainstep::wire::Surface surface() const;
 

@@ -1,0 +1,15 @@
+/// @file The energies of contacts between particles, as whoever computes these contacts gives them to a StepDriver.
+#pragma once
+
+namespace grainstep::dem {
+
+/// What this rank's contacts have dissipated since t = 0 and store now, J.
+struct PairEnergy {
+  double damping = 0.0;            ///< dissipated by dashpots
+  double tangential = 0.0;         ///< into tangential springs and sliders
+  double stored_normal = 0.0;      ///< at the last evaluation
+  double stored_tangential = 0.0;  ///< likewise
+  double largest_overlap = 0.0;    ///< over the sum of the radii, at the last evaluation
+};
+
+}  // namespace grainstep::dem
