@@ -1,6 +1,6 @@
-/// @file What a step of the particles costs: the slug with our surface contact, mirror plane and ledger, in LAMMPS and in
-/// the native engine, against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that all see the
-/// same machine.
+/// @file What a step of the particles costs: the slug with our surface contact, mirror plane and ledger, in LAMMPS and
+/// in the native engine, against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that all
+/// see the same machine.
 ///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions] [native|lammps|plain for one alone]
 /// Times are CPU seconds of this process; the median of the repetitions counts.
 #include <algorithm>

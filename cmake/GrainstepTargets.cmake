@@ -137,11 +137,12 @@ math(EXPR GRAINSTEP_TEST_TIMEOUT "4 * ${GRAINSTEP_PATIENCE}")
 math(EXPR GRAINSTEP_LONG_TIMEOUT "12 * ${GRAINSTEP_PATIENCE}")  # of tests that compute for minutes
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tests/support/patience.hpp)
 
-# grainstep_test(name SOURCES ... DEPENDS ... LABELS ... [TIMEOUT s]): one GoogleTest program, one CTest entry per TEST.
-# LABELS long keeps it out of `make test`; LABELS verify puts it on docs/verification.md and brings
-# support/verification_record.hpp.
+# grainstep_test(name SOURCES ... DEPENDS ... LABELS ... [TIMEOUT s] [BOTH_ENGINES]): one GoogleTest program, one CTest
+# entry per TEST. LABELS long keeps it out of `make test`; LABELS verify puts it on docs/verification.md and brings
+# support/verification_record.hpp. BOTH_ENGINES: every test a second time, as native.NAME, with the native engine
+# wherever dem-service/engine_rig.hpp runs one.
 function(grainstep_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "BOTH_ENGINES" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE grainstep_options ${arg_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES GRAINSTEP_COLD ON)  # for its warnings; it is optimised like the code of a step
@@ -154,12 +155,19 @@ function(grainstep_test name)
     set(arg_TIMEOUT ${GRAINSTEP_TEST_TIMEOUT})
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT ${GRAINSTEP_PATIENCE} TEST_LIST ${name}_list)
+  if(arg_BOTH_ENGINES)
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT ${GRAINSTEP_PATIENCE} TEST_PREFIX native. TEST_LIST ${name}_native)
+  endif()
   # gtest_discover_tests takes its properties apart at every semicolon, and an empty one shifts what follows it. So they
   # are set on the discovered tests by a file that CTest reads after the discovery.
   set(properties ${CMAKE_CURRENT_BINARY_DIR}/${name}_properties.cmake)
-  file(WRITE ${properties} "foreach(test IN LISTS ${name}_list)
+  file(WRITE ${properties} "foreach(test IN LISTS ${name}_list ${name}_native)
+  set(engine lammps)
+  if(test MATCHES [[^native\\.]])
+    set(engine native)
+  endif()
   set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${arg_LABELS}\" TIMEOUT ${arg_TIMEOUT}
-    ENVIRONMENT \"GRAINSTEP_TEST=\${test};PATH=${PROJECT_BINARY_DIR}/bin:$ENV{PATH};OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1\")
+    ENVIRONMENT \"GRAINSTEP_TEST_ENGINE=\${engine};GRAINSTEP_TEST=\${test};PATH=${PROJECT_BINARY_DIR}/bin:$ENV{PATH};OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1\")
 endforeach()
 ")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${properties})

@@ -1,5 +1,6 @@
-/// @file The conversation of an engine with the other side: impulses go out, surfaces come in. An engine that shares its
-/// particles among several processes sums and passes on what each has (rank_exchange.hpp); here is what one alone needs.
+/// @file The conversation of an engine with the other side: impulses go out, surfaces come in. An engine that shares
+/// its particles among several processes sums and passes on what each has (rank_exchange.hpp); here is what one alone
+/// needs.
 #pragma once
 
 #include <exception>

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "dem-service/deck/deck_model.hpp"
+#include "dem-service/rank_exchange.hpp"
 #include "dem-service/surface_fix.hpp"
 
 namespace grainstep::dem {

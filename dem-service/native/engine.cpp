@@ -16,10 +16,11 @@ namespace {
 
 using surface::Vec3;
 
-// What grains may move until the list is made anew, over the mean diameter. Longer lists cost in every step, making them
-// costs now and then: docs/decisions/0019 has the measurements.
+// What grains may move until the list is made anew, over the mean diameter. Longer lists cost in every step, making
+// them costs now and then: docs/decisions/0019 has the measurements.
 constexpr double slow_allowance = 0.35;
 constexpr double fast_allowance = 1.0;
+constexpr double inner_share = 0.25;  // of it, until the inner list is
 // Sleepers are woken when something is so near, and all of them at once that are no further than this.
 constexpr double room_to_wake = 0.25;
 constexpr double room_awake = 3.0;
@@ -45,14 +46,18 @@ template <int D>
 class Run {
  public:
   Run(const SlugModel& model, const wire::ImpactorSetup& setup, const wire::Start& start,
-      participant::ImpactorLink& link, std::vector<PlacedParticle> particles)
-      : start_(start),
+      participant::ImpactorLink& link, const Watch& watch, std::vector<PlacedParticle> particles)
+      : watch_(watch),
+        start_(start),
         dt_(start.window() / start.impactor_steps()),
         diameter_(model.diameter),
         law_(calibrated_pair_law(model, dt_)),
         flight_(model, particles),
         grains_(model, particles),
-        neighbours_(sweeps_, {slow_allowance * model.diameter, fast_allowance * model.diameter}),
+        allowance_{slow_allowance * model.diameter, fast_allowance * model.diameter},
+        inner_allowance_{inner_share * allowance_.slow, inner_share * allowance_.fast},
+        refreshable_{allowance_.slow - inner_allowance_.slow, allowance_.fast - inner_allowance_.fast},
+        neighbours_(sweeps_, allowance_, inner_allowance_),
         contacts_(pair_law(law_), features_of<D>(model), sweeps_, grains_),
         exchange_(&link, MovingSurface(setup.surface()).node_count()),
         driver_(model, start, {.dt = dt_, .margin = model.diameter}, MovingSurface(setup.surface()), exchange_) {}
@@ -78,12 +83,22 @@ class Run {
 
   void move(std::uint64_t n) {
     const double kick = n == 1 ? dt_ / 2.0 : dt_;
-    used_slow_ += dt_ * grains_.move(sweeps_, 0, neighbours_.slow(), frame_, kick, dt_);
-    used_fast_ += dt_ * grains_.move(sweeps_, neighbours_.slow(), flight_.awake(), frame_, kick, dt_);
-    frame_moved_ += dt_ * norm(frame_);
-    const bool old = !(used_slow_ <= slow_allowance * diameter_) || !(used_fast_ <= fast_allowance * diameter_) ||
-                     !(std::max(used_slow_, used_fast_) + frame_moved_ <= diameter_);
-    if (old || something_near_sleepers(n)) rebuild(n);
+    const std::int32_t slow = neighbours_.slow();
+    used_.slow += dt_ * grains_.move(sweeps_, 0, slow, frame_, kick, dt_);
+    used_.fast += dt_ * grains_.move(sweeps_, slow, flight_.awake(), frame_, kick, dt_);
+    const Vec3 shift = (time_of(n) - built_at_) * frame_;
+    if (something_near_sleepers(n)) return rebuild(n);
+    if (used_.within(inner_allowance_) && within_margin(shift)) return;
+    // A sum of largest speeds is more than anyone has moved: look. The whole list must hold what the inner one will.
+    moved_ = {grains_.displaced(sweeps_, 0, slow, shift), grains_.displaced(sweeps_, slow, flight_.awake(), shift)};
+    used_ = {};
+    if (!moved_.within(refreshable_) || !within_margin(shift)) return rebuild(n);
+    neighbours_.refresh(grains_);
+  }
+
+  /// Contact with the surface is looked for among those that were near it when the list was made.
+  [[nodiscard]] bool within_margin(const Vec3& shift) const {
+    return std::max(moved_.slow + used_.slow, moved_.fast + used_.fast) + norm(shift) <= diameter_;
   }
 
   [[nodiscard]] bool flies(std::int32_t i) const {
@@ -104,7 +119,7 @@ class Run {
   [[nodiscard]] bool something_near_sleepers(std::uint64_t n) const {
     if (flight_.all_awake()) return false;
     const double time = time_of(n);
-    const double slow = front_slow_ + used_slow_ + (time - built_at_) * norm(frame_ - flight_.velocity());
+    const double slow = front_slow_ + moved_.slow + used_.slow + (time - built_at_) * norm(frame_ - flight_.velocity());
     const double front = std::max(slow, front_of(neighbours_.slow(), flight_.awake(), time));
     const double room = room_to_wake * diameter_ + dt_ * norm(flight_.velocity());
     return flight_.near(front, driver_.top_of_surface(), time, room);
@@ -162,9 +177,10 @@ class Run {
     frame_ = mean_velocity();
     choose_fast();
     neighbours_.rebuild(grains_, flight_.awake(), fast_);
-    contacts_.follow(neighbours_);
+    contacts_.follow(neighbours_, grains_);
     front_slow_ = front_of(0, neighbours_.slow(), time);
-    used_slow_ = used_fast_ = frame_moved_ = 0.0;
+    grains_.remember_places(flight_.awake());
+    used_ = moved_ = {};
     built_at_ = time;
     driver_.rebuild(arrays());
   }
@@ -175,6 +191,7 @@ class Run {
     contacts_.evaluate(grains_, neighbours_, n == 0 ? 0.0 : dt_);
     driver_.after_pair_forces(n, arrays());
     if (driver_.ended()) return;
+    if (watch_) show(n);
     end_step(n);
   }
 
@@ -196,28 +213,35 @@ class Run {
     for (const auto& [i, speeds] : looked_at_) grains_.set_speeds(i, speeds);
   }
 
+  void show(std::uint64_t n) {
+    place_sleepers(flight_.awake(), grains_.count(), time_of(n));
+    watch_({n, grains_.arrays(grains_.count()), &contacts_.all()});
+  }
+
   void look_at(std::int32_t i) {
     looked_at_.emplace_back(i, grains_.speeds(i));
     grains_.kick_alone(i, dt_ / 2.0);
   }
 
   const Sweeps& sweeps_ = *available_sweeps().front();
+  const Watch& watch_;
   wire::Start start_;
   double dt_;
   double diameter_;
   ContactLaw law_;  ///< the pair law reads its table
   Flight flight_;
   Grains<D> grains_;
+  Allowance allowance_, inner_allowance_, refreshable_;
   Neighbours<D> neighbours_;
   Contacts<D> contacts_;
   Exchange exchange_;
   StepDriver driver_;
 
-  Vec3 frame_;  ///< m/s
-  double used_slow_ = 0.0, used_fast_ = 0.0;  ///< m, bounds on what grains have moved in the frame since the list was made
-  double frame_moved_ = 0.0;                  ///< m, what the frame has
-  double front_slow_ = 0.0;                   ///< m, of the slow ones when it was made
-  double built_at_ = 0.0;                     ///< s
+  Vec3 frame_;               ///< m/s
+  Allowance moved_;          ///< m, by grains in the frame from when the list was made to when the inner one was
+  Allowance used_;           ///< m, a bound on what they have moved since then
+  double front_slow_ = 0.0;  ///< m, of the slow ones when the list was made
+  double built_at_ = 0.0;    ///< s
   std::vector<std::uint8_t> fast_, marked_;
   std::vector<double> speed_;  ///< squared, in the frame
   std::vector<std::pair<std::int32_t, typename Grains<D>::Speeds>> looked_at_;
@@ -230,7 +254,7 @@ class EngineOf final : public Engine {
       : model_(model), setup_(std::move(setup)), particles_(std::move(particles)) {}
 
   void run(const wire::Start& start, participant::ImpactorLink& link) override {
-    Run<D>(model_, setup_, start, link, particles_).run();
+    Run<D>(model_, setup_, start, link, watch_, particles_).run();
   }
 
  private:

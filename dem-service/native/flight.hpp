@@ -1,6 +1,6 @@
 /// @file Grains in free flight that nothing has reached yet: where they are follows from where they began, and nobody
-/// needs to know before something comes near. They are left alone until then; waking them too early costs a little time,
-/// too late would lose a contact.
+/// needs to know before something comes near. They are left alone until then; waking them too early costs a little
+/// time, too late would lose a contact.
 ///
 /// Sorted by how far behind the head they fly, sleepers are the tail of the order. docs/decisions/0019.
 #pragma once

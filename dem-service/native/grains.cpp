@@ -102,6 +102,7 @@ double Grains<D>::move(const Sweeps& sweeps, std::int32_t first, std::int32_t la
   motion.places = places_.data();
   motion.per_mass = per_mass_.data();
   motion.per_inertia = per_inertia_.data();
+  motion.each = mixed_ ? 1 : 0;
   motion.kick = kick;
   motion.drift = drift;
   std::copy_n(frame.c.begin(), 3, motion.frame);
@@ -109,6 +110,23 @@ double Grains<D>::move(const Sweeps& sweeps, std::int32_t first, std::int32_t la
   motion.first = first;
   motion.last = last;
   return std::sqrt(sweeps.move[D - 2](motion));
+}
+
+template <int D>
+void Grains<D>::remember_places(std::int32_t known) {
+  remembered_.assign(places_.begin(), places_.begin() + known * place_size<D>);
+}
+
+template <int D>
+double Grains<D>::displaced(const Sweeps& sweeps, std::int32_t first, std::int32_t last,
+                            const surface::Vec3& shift) const {
+  Displacement displacement;
+  displacement.places = places_.data();
+  displacement.before = remembered_.data();
+  for (std::size_t c = 0; c < 3; ++c) displacement.shift[c] = static_cast<float>(shift[c]);
+  displacement.first = first;
+  displacement.last = last;
+  return std::sqrt(static_cast<double>(sweeps.displaced[D - 2](displacement)));
 }
 
 template <int D>

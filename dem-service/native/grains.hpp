@@ -7,6 +7,7 @@
 #include "contact/particle_arrays.hpp"
 #include "dem-service/native/rows.hpp"
 #include "dem-service/native/sweeps.hpp"
+#include "dem-service/pair/contacts.hpp"
 #include "dem-service/slug_layout.hpp"
 
 namespace grainstep::dem::native {
@@ -37,6 +38,18 @@ class Grains {
   /// The first `owned` of them.
   [[nodiscard]] contact::ParticleArrays arrays(std::int32_t owned);
 
+  [[nodiscard]] PairArrays pair_arrays() {
+    return {.position = position(0),
+            .velocity = velocity(0),
+            .spin = spin(0),
+            .force = force(0) + R::force,
+            .torque = force(0) + R::torque,
+            .radius = radius_.data(),
+            .mass = mass_.data(),
+            .stride = R::size,
+            .force_stride = R::force_size};
+  }
+
   /// What stood at order[n] stands at n, for the first order.size() of them. Forces must be zero there.
   void reorder(const std::vector<std::int32_t>& order);
 
@@ -46,6 +59,12 @@ class Grains {
   /// Kick and drift of [first, last); returns a bound on their speed against `frame`, m/s.
   double move(const Sweeps& sweeps, std::int32_t first, std::int32_t last, const surface::Vec3& frame, double kick,
               double drift);
+
+  /// Places as they are now, to be compared with later.
+  void remember_places(std::int32_t known);
+  /// m, the largest way of [first, last) since then in a frame that has moved by `shift` (m).
+  [[nodiscard]] double displaced(const Sweeps& sweeps, std::int32_t first, std::int32_t last,
+                                 const surface::Vec3& shift) const;
 
   /// Adds the force's share of `kick` seconds to velocity and spin, and leaves the force.
   void kick_alone(std::ptrdiff_t i, double kick);
@@ -70,7 +89,7 @@ class Grains {
 
   std::vector<State> states_;
   std::vector<Force> forces_;  ///< one more in front: a disc's torque adds zeros to the one before it
-  std::vector<float> places_;
+  std::vector<float> places_, remembered_;
   std::vector<double> radius_, mass_, per_mass_, per_inertia_;
   std::vector<float> float_radius_;
   std::vector<std::int32_t> identity_;

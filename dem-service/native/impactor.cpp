@@ -36,12 +36,13 @@ class Impactor final : public participant::ImpactorBackend {
     if (impactor.type() != scene::Impactor::TYPE_SLUG) {
       throw InputError("impactor.type: grainstep-grains computes `slug`, this scene has another one");
     }
-    wire::Ready ready = preview(impactor, setup.symmetry(), setup.depth(), setup.mirror()).ready(setup.impactor().surface());
+    wire::Ready ready =
+        preview(impactor, setup.symmetry(), setup.depth(), setup.mirror()).ready(setup.impactor().surface());
     ready.set_scene_hash(setup.scene_hash());
     if (setup.preview()) return ready;
     const SlugModel model = slug_model_of(setup);
-    engine_ = make_engine(model, setup.impactor(),
-                          lay_out(model, contact::MovingSurface(setup.impactor().surface()).now()));
+    engine_ =
+        make_engine(model, setup.impactor(), lay_out(model, contact::MovingSurface(setup.impactor().surface()).now()));
     return ready;
   }
 

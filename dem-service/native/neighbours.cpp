@@ -96,14 +96,8 @@ template <int D>
 void Neighbours<D>::look(const Grains<D>& grains, std::int32_t grain, std::int32_t first, std::int32_t last) {
   if (first >= last) return;
   const auto room = static_cast<std::size_t>(count_ + (last - first) + 1);
-  if (second_.size() < room) {
-    first_.resize(2 * room);
-    second_.resize(2 * room);
-  }
-  const std::ptrdiff_t more = sweeps_.near[D - 2]({grains.places(), reach_.data(), grain, first, last},
-                                                  second_.data() + count_);
-  std::fill_n(first_.data() + count_, more, grain);
-  count_ += more;
+  if (pairs_.size() < room) pairs_.resize(2 * room);
+  count_ += sweeps_.near[D - 2]({grains.places(), reach_.data(), grain, first, last}, pairs_.data() + count_);
 }
 
 /// Half of the cells around, so that every pair is found once.
@@ -131,6 +125,7 @@ void Neighbours<D>::find_slow(const Grains<D>& grains) {
         }
         const std::int32_t last = begin_of(slow_begin_, right, y, z);
         for (std::int32_t i = begin; i < end; ++i) {
+          begin_of_grain_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(count_);
           look(grains, i, i + 1, last);
           for (int r = 0; r < count; ++r) look(grains, i, ranges[r][0], ranges[r][1]);
         }
@@ -141,9 +136,10 @@ void Neighbours<D>::find_slow(const Grains<D>& grains) {
 
 template <int D>
 void Neighbours<D>::find_fast(const Grains<D>& grains, std::int32_t active) {
-  const double reach = 2.0 * (grains.largest_radius() + allowance_.fast) + 2.0 * slack_;
+  const double reach = 2.0 * (grains.largest_radius() + allowance_.fast + 2.0 * slack_);
   const auto cells = static_cast<std::int32_t>(std::ceil(reach * cells_.per_size));
   for (std::int32_t i = slow_; i < active; ++i) {
+    begin_of_grain_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(count_);
     std::int32_t at[3] = {0, 0, 0};
     for (int c = 0; c < D; ++c) {
       const auto cell = static_cast<std::int32_t>((grains.position(i)[c] - cells_.low[c]) * cells_.per_size);
@@ -165,19 +161,50 @@ void Neighbours<D>::find_fast(const Grains<D>& grains, std::int32_t active) {
 template <int D>
 void Neighbours<D>::rebuild(Grains<D>& grains, std::int32_t active, const std::vector<std::uint8_t>& fast) {
   count_ = 0;
+  inner_.count = 0;
   slow_ = 0;
   order_.clear();
   if (active == 0) return;
   lay_cells(grains, active);
   sort(grains, active, fast);
   grains.set_origin(cells_.low, active);
-  reach_.resize(static_cast<std::size_t>(active));
+  const auto size = static_cast<std::size_t>(active);
+  reach_.resize(size);
+  inner_reach_.resize(size);
   for (std::int32_t i = 0; i < active; ++i) {
-    const double allowed = i < slow_ ? allowance_.slow : allowance_.fast;
-    reach_[static_cast<std::size_t>(i)] = static_cast<float>(grains.radius(i) + allowed) + slack_;
+    const auto n = static_cast<std::size_t>(i);
+    const bool slow = i < slow_;
+    reach_[n] = static_cast<float>(grains.radius(i) + (slow ? allowance_.slow : allowance_.fast)) + 2.0F * slack_;
+    const double inner = slow ? inner_allowance_.slow : inner_allowance_.fast;
+    inner_reach_[n] = static_cast<float>(grains.radius(i) + inner) + slack_;
   }
+  begin_of_grain_.resize(size + 1);
   find_slow(grains);
   find_fast(grains, active);
+  begin_of_grain_[size] = static_cast<std::int32_t>(count_);
+  refresh(grains);
+}
+
+template <int D>
+void Neighbours<D>::refresh(const Grains<D>& grains) {
+  const auto room = static_cast<std::size_t>(count_) + 1;
+  if (inner_.number.size() < room) {
+    inner_.number.resize(room + room / 2);
+    inner_.pair.resize(room + room / 2);
+  }
+  const std::ptrdiff_t found = sweeps_.touching[D - 2](
+      {grains.places(), pairs_.data(), nullptr, count_, 0.0F, inner_reach_.data(), 0.0F}, inner_.number.data());
+  inner_.count = static_cast<std::size_t>(found);
+  for (std::size_t n = 0; n < inner_.count; ++n) inner_.pair[n] = pairs_[inner_.number[n]];
+}
+
+template <int D>
+std::int32_t Neighbours<D>::find(std::int32_t i, std::int32_t j) const {
+  const std::int32_t end = begin_of_grain_[static_cast<std::size_t>(i) + 1];
+  for (std::int32_t k = begin_of_grain_[static_cast<std::size_t>(i)]; k < end; ++k) {
+    if (pairs_[static_cast<std::size_t>(k)].second == j) return k;
+  }
+  return -1;
 }
 
 template class Neighbours<2>;

@@ -19,7 +19,7 @@ template <>
 struct Row<2> {
   static constexpr std::ptrdiff_t size = 8, position = 0, spin = 2, velocity = 5;
   static constexpr std::ptrdiff_t force_size = 4, force = 1, torque = -2;  ///< a torque's zeros are added to others
-  static constexpr std::ptrdiff_t turn = 2;                                ///< component of spin and torque: the only one
+  static constexpr std::ptrdiff_t turn = 2;  ///< component of spin and torque: the only one
 };
 
 template <>

@@ -1,5 +1,5 @@
-/// @file The loops of sweeps.hpp, compiled once per instruction set: nothing here may be shared with other files, or one
-/// of them could run another one's instructions.
+/// @file The loops of sweeps.hpp, compiled once per instruction set: nothing here may be shared with other files, or
+/// one of them could run another one's instructions.
 #include "dem-service/native/sweeps.hpp"
 
 #include "dem-service/native/rows.hpp"
@@ -24,8 +24,8 @@ double move_discs(const Motion& m) {
   double* force = m.forces + m.first * R::force_size;
   float* place = m.places + m.first * place_size<2>;
   for (std::ptrdiff_t i = m.first; i < m.last; ++i) {
-    const double by_mass = kick * m.per_mass[i];
-    const Quad by{kick * m.per_inertia[i], by_mass, by_mass, 0.0};
+    const double by_mass = kick * m.per_mass[i * m.each];
+    const Quad by{kick * m.per_inertia[i * m.each], by_mass, by_mass, 0.0};
     const Quad velocity = quad_at(row + 4) + quad_at(force) * by;
     quad_at(row + 4) = velocity;
     const Quad position = quad_at(row) + __builtin_shuffle(velocity, Lanes{1, 2, 3, 3}) * drift;
@@ -51,9 +51,9 @@ double move_spheres(const Motion& m) {
   double* force = m.forces + m.first * R::force_size;
   float* place = m.places + m.first * place_size<3>;
   for (std::ptrdiff_t i = m.first; i < m.last; ++i) {
-    const Quad velocity = quad_at(row + R::velocity) + quad_at(force) * (m.kick * m.per_mass[i]);
+    const Quad velocity = quad_at(row + R::velocity) + quad_at(force) * (m.kick * m.per_mass[i * m.each]);
     quad_at(row + R::velocity) = velocity;
-    quad_at(row + R::spin) += quad_at(force + R::torque) * (m.kick * m.per_inertia[i]);
+    quad_at(row + R::spin) += quad_at(force + R::torque) * (m.kick * m.per_inertia[i * m.each]);
     const Quad position = quad_at(row) + velocity * m.drift;
     quad_at(row) = position;
     quad_at(force) = Quad{};
@@ -81,41 +81,58 @@ template <int D>
   return sum;
 }
 
-/// Without a branch: whether a pair touches cannot be foretold.
-template <int D, bool Mixed>
-[[gnu::always_inline]] inline std::ptrdiff_t filter(const float* places, const PairList& pairs, float reach,
-                                                    const float* radii, float slack, std::int32_t* found) {
+/// Without a branch: whether a pair is near cannot be foretold.
+template <int D, bool Own, bool Numbered>
+[[gnu::always_inline]] inline std::ptrdiff_t filter(const PairSearch& search, std::uint32_t* found) {
+  const float* places = search.places;
   std::ptrdiff_t count = 0;
-  float within = (reach + slack) * (reach + slack);
-  for (std::ptrdiff_t k = 0; k < pairs.count; ++k) {
-    const std::ptrdiff_t i = pairs.first[k];
-    const std::ptrdiff_t j = pairs.second[k];
+  float within = (search.reach + search.slack) * (search.reach + search.slack);
+  for (std::ptrdiff_t k = 0; k < search.count; ++k) {
+    const std::ptrdiff_t i = search.pairs[k].first;
+    const std::ptrdiff_t j = search.pairs[k].second;
     const float squared = squared_distance<D>(places + i * place_size<D>, places + j * place_size<D>);
-    if constexpr (Mixed) {
-      const float own = radii[i] + radii[j] + slack;
+    if constexpr (Own) {
+      const float own = search.radii[i] + search.radii[j] + search.slack;
       within = own * own;
     }
-    found[count] = static_cast<std::int32_t>(k);
+    found[count] = Numbered ? search.numbers[k] : static_cast<std::uint32_t>(k);
     count += squared < within ? 1 : 0;
   }
   return count;
 }
 
 template <int D>
-std::ptrdiff_t touching(const float* places, const PairList& pairs, float reach, const float* radii, float slack,
-                        std::int32_t* found) {
-  return radii != nullptr ? filter<D, true>(places, pairs, reach, radii, slack, found)
-                          : filter<D, false>(places, pairs, reach, radii, slack, found);
+std::ptrdiff_t touching(const PairSearch& search, std::uint32_t* found) {
+  if (search.radii != nullptr) {
+    return search.numbers != nullptr ? filter<D, true, true>(search, found) : filter<D, true, false>(search, found);
+  }
+  return search.numbers != nullptr ? filter<D, false, true>(search, found) : filter<D, false, false>(search, found);
 }
 
 template <int D>
-std::ptrdiff_t near(const Candidates& c, std::int32_t* found) {
+float displaced(const Displacement& d) {
+  float most = 0.0F;
+  for (std::ptrdiff_t i = d.first; i < d.last; ++i) {
+    const float* now = d.places + i * place_size<D>;
+    const float* before = d.before + i * place_size<D>;
+    float sum = 0.0F;
+    for (int c = 0; c < D; ++c) {
+      const float by = now[c] - before[c] - d.shift[c];
+      sum += by * by;
+    }
+    most = sum > most ? sum : most;
+  }
+  return most;
+}
+
+template <int D>
+std::ptrdiff_t near(const Candidates& c, Pair* found) {
   std::ptrdiff_t count = 0;
   const float* place = c.places + c.grain * place_size<D>;
   const float reach = c.reach[c.grain];
   for (std::ptrdiff_t j = c.first; j < c.last; ++j) {
     const float both = reach + c.reach[j];
-    found[count] = static_cast<std::int32_t>(j);
+    found[count] = {static_cast<std::int32_t>(c.grain), static_cast<std::int32_t>(j)};
     count += squared_distance<D>(place, c.places + j * place_size<D>) < both * both ? 1 : 0;
   }
   return count;
@@ -132,6 +149,7 @@ extern const Sweeps GS_JOIN(sweeps_, GRAINSTEP_NATIVE_ISA);
 const Sweeps GS_JOIN(sweeps_, GRAINSTEP_NATIVE_ISA) = {GS_TEXT(GRAINSTEP_NATIVE_ISA),
                                                        {&move_discs, &move_spheres},
                                                        {&touching<2>, &touching<3>},
+                                                       {&displaced<2>, &displaced<3>},
                                                        {&near<2>, &near<3>}};
 
 }  // namespace grainstep::dem::native

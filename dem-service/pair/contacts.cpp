@@ -22,6 +22,16 @@ namespace {
 
 constexpr std::uint32_t no_pair = std::numeric_limits<std::uint32_t>::max();
 
+/// Which pairs touch is known well before they are computed, but not to the processor: it fetches nothing by itself.
+constexpr std::size_t ahead = 12;
+
+void fetch(const PairArrays& particles, const Pair& pair) {
+  __builtin_prefetch(particles.position + particles.stride * pair.first);
+  __builtin_prefetch(particles.position + particles.stride * pair.second);
+  __builtin_prefetch(particles.force + particles.force_stride * pair.first, 1);
+  __builtin_prefetch(particles.force + particles.force_stride * pair.second, 1);
+}
+
 std::vector<const PairKernels*> detect() {
   std::vector<const PairKernels*> found;
 #if defined(__x86_64__)
@@ -39,8 +49,6 @@ double sum_of(const double (&lanes)[batch_lanes]) {
   for (const double lane : lanes) sum += lane;
   return sum;
 }
-
-std::ptrdiff_t at(int particle) { return 3 * static_cast<std::ptrdiff_t>(particle); }
 
 template <int D>
 double squared_distance(const double* a, const double* b) {
@@ -85,21 +93,40 @@ void PairContacts::clear(double largest_radius) {
   now_.end(layout_.values);
 }
 
-void PairContacts::adopt(const double* values) {
+void PairContacts::set_equal(double radius, double mass) {
+  equal_radius_ = radius;
+  std::fill(std::begin(batch_.reach), std::end(batch_.reach), radius + radius);
+  std::fill(std::begin(batch_.mass_product), std::end(batch_.mass_product), mass * mass);
+  std::fill(std::begin(batch_.mass_sum), std::end(batch_.mass_sum), mass + mass);
+}
+
+void PairContacts::adopt(std::size_t pair, const double* values) {
   now_.reserve(now_.size + 1, layout_.values);
-  now_.pair[now_.size] = static_cast<std::uint32_t>(pairs_.size() - 1);
+  now_.pair[now_.size] = static_cast<std::uint32_t>(pair);
   for (int h = 0; h < layout_.values; ++h) now_.value[h][now_.size] = values[h];
   ++now_.size;
   now_.end(layout_.values);
 }
 
 void PairContacts::evaluate(const PairArrays& particles, double grown) {
-  const bool flat = features_.dimension == 2;
-  if (flat) {
-    features_.friction ? sweep<2, true>(particles, grown) : sweep<2, false>(particles, grown);
+  if (features_.dimension == 2) {
+    features_.mixed ? find_near<2, true>(particles) : find_near<2, false>(particles);
   } else {
-    features_.friction ? sweep<3, true>(particles, grown) : sweep<3, false>(particles, grown);
+    features_.mixed ? find_near<3, true>(particles) : find_near<3, false>(particles);
   }
+  evaluate(particles, grown, {near_.data(), near_count_});
+}
+
+void PairContacts::evaluate(const PairArrays& particles, double grown, std::span<const std::uint32_t> near) {
+  const auto choose = [&]<int D>() {
+    const bool equal = equal_radius_ > 0.0;
+    if (features_.friction) {
+      equal ? sweep<D, true, true>(particles, grown, near) : sweep<D, true, false>(particles, grown, near);
+    } else {
+      equal ? sweep<D, false, true>(particles, grown, near) : sweep<D, false, false>(particles, grown, near);
+    }
+  };
+  features_.dimension == 2 ? choose.operator()<2>() : choose.operator()<3>();
   energy_.damping += sum_of(sums_.damping);
   energy_.tangential += sum_of(sums_.tangential);
   energy_.stored_normal = sum_of(sums_.stored_normal);
@@ -115,11 +142,12 @@ void PairContacts::find_near(const PairArrays& particles) {
   std::uint32_t* near = near_.data();
   const Pair* pairs = pairs_.data();
   const auto count = static_cast<std::uint32_t>(pairs_.size());
+  const std::ptrdiff_t stride = particles.stride;
   double nearly = nearly_;
   std::size_t found = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
     near[found] = k;
-    const double squared = squared_distance<D>(position + at(pairs[k].first), position + at(pairs[k].second));
+    const double squared = squared_distance<D>(position + stride * pairs[k].first, position + stride * pairs[k].second);
     if constexpr (Mixed) {
       const double reach = particles.radius[pairs[k].first] + particles.radius[pairs[k].second];
       nearly = reach * reach;
@@ -129,23 +157,29 @@ void PairContacts::find_near(const PairArrays& particles) {
   near_count_ = found;
 }
 
-template <int D, bool Friction>
-void PairContacts::sweep(const PairArrays& particles, double grown) {
+template <int D, bool Friction, bool Equal>
+void PairContacts::sweep(const PairArrays& particles, double grown, std::span<const std::uint32_t> near) {
   constexpr int values = history_layout(D, Friction).values;
-  features_.mixed ? find_near<D, true>(particles) : find_near<D, false>(particles);
+  const std::ptrdiff_t stride = particles.stride;
   std::swap(before_, now_);
-  now_.reserve(near_count_, values);
+  now_.reserve(near.size(), values);
   sums_ = {};
   batch_.count = 0;
   std::size_t old = 0;
   std::size_t size = 0;
   std::size_t flushed = 0;
-  for (std::size_t n = 0; n < near_count_; ++n) {
-    const std::uint32_t k = near_[n];
+  double radius[2] = {equal_radius_, equal_radius_};
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    const std::uint32_t k = near[n];
+    if (n + ahead < near.size()) fetch(particles, pairs_[near[n + ahead]]);
     const auto [i, j] = pairs_[k];
-    const double* a = particles.position + at(i);
-    const double* b = particles.position + at(j);
-    const double reach = particles.radius[i] + particles.radius[j];
+    const double* a = particles.position + stride * i;
+    const double* b = particles.position + stride * j;
+    if constexpr (!Equal) {
+      radius[0] = particles.radius[i];
+      radius[1] = particles.radius[j];
+    }
+    const double reach = radius[0] + radius[1];
     if (!(squared_distance<D>(a, b) < reach * reach)) continue;
     while (before_.pair[old] < k) finish<D, Friction>(particles, grown, old++);
     const bool lasting = before_.pair[old] == k;
@@ -155,20 +189,22 @@ void PairContacts::sweep(const PairArrays& particles, double grown) {
     now_.pair[size++] = k;
 
     const int l = batch_.count++;
-    const double* v = particles.velocity + at(i);
-    const double* w = particles.velocity + at(j);
+    const double* v = particles.velocity + stride * i;
+    const double* w = particles.velocity + stride * j;
     for (int c = 0; c < D; ++c) batch_.branch[c][l] = a[c] - b[c];
     for (int c = 0; c < D; ++c) batch_.velocity[c][l] = v[c] - w[c];
     if constexpr (Friction) {
-      const double* p = particles.spin + at(i);
-      const double* q = particles.spin + at(j);
+      const double* p = particles.spin + stride * i;
+      const double* q = particles.spin + stride * j;
       for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
-        batch_.rolling[D == 2 ? 0 : c][l] = particles.radius[i] * p[c] + particles.radius[j] * q[c];
+        batch_.rolling[D == 2 ? 0 : c][l] = radius[0] * p[c] + radius[1] * q[c];
       }
     }
-    batch_.reach[l] = reach;
-    batch_.mass_product[l] = particles.mass[i] * particles.mass[j];
-    batch_.mass_sum[l] = particles.mass[i] + particles.mass[j];
+    if constexpr (!Equal) {
+      batch_.reach[l] = reach;
+      batch_.mass_product[l] = particles.mass[i] * particles.mass[j];
+      batch_.mass_sum[l] = particles.mass[i] + particles.mass[j];
+    }
     if (batch_.count == batch_capacity) {
       flush<D, Friction>(particles, grown, flushed);
       flushed = size;
@@ -185,10 +221,10 @@ void PairContacts::flush(const PairArrays& particles, double grown, std::size_t 
   constexpr HistoryLayout layout = history_layout(D, Friction);
   const int count = batch_.count;
   for (int l = count; l % batch_lanes != 0; ++l) {  // a pair that just touches, at rest: no force, no energy
-    for (int c = 0; c < D; ++c) batch_.branch[c][l] = c == 0 ? 1.0 : 0.0;
+    for (int c = 0; c < D; ++c) batch_.branch[c][l] = c == 0 ? (equal_radius_ > 0.0 ? batch_.reach[l] : 1.0) : 0.0;
     for (int c = 0; c < D; ++c) batch_.velocity[c][l] = batch_.rolling[c][l] = 0.0;
     for (int h = 0; h < layout.values; ++h) now_.value[h][first_contact + static_cast<std::size_t>(l)] = 0.0;
-    batch_.reach[l] = batch_.mass_product[l] = batch_.mass_sum[l] = 1.0;
+    if (equal_radius_ == 0.0) batch_.reach[l] = batch_.mass_product[l] = batch_.mass_sum[l] = 1.0;
   }
   double* history[most_history_values] = {};
   for (int h = 0; h < layout.values; ++h) history[h] = now_.value[h].data() + first_contact;
@@ -196,15 +232,17 @@ void PairContacts::flush(const PairArrays& particles, double grown, std::size_t 
   const std::uint32_t* numbers = now_.pair.data() + first_contact;
   for (int l = 0; l < count; ++l) {
     const auto [i, j] = pairs_[numbers[l]];
-    double* on_first = particles.force + at(i);
-    double* on_second = particles.force + at(j);
+    double* on_first = particles.force + particles.force_stride * i;
+    double* on_second = particles.force + particles.force_stride * j;
+    const double radius[2] = {equal_radius_ > 0.0 ? equal_radius_ : particles.radius[i],
+                              equal_radius_ > 0.0 ? equal_radius_ : particles.radius[j]};
     for (int c = 0; c < D; ++c) on_first[c] += batch_.force[c][l];
     for (int c = 0; c < D; ++c) on_second[c] -= batch_.force[c][l];
     if constexpr (Friction) {
       for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
         const double torque = history[layout.torque + (D == 2 ? 0 : c)][l];
-        particles.torque[at(i) + c] -= particles.radius[i] * torque;
-        particles.torque[at(j) + c] -= particles.radius[j] * torque;
+        particles.torque[particles.force_stride * i + c] -= radius[0] * torque;
+        particles.torque[particles.force_stride * j + c] -= radius[1] * torque;
       }
     }
   }
@@ -217,20 +255,21 @@ void PairContacts::finish(const PairArrays& particles, double grown, std::size_t
   if (!features_.energy) return;
   constexpr HistoryLayout layout = history_layout(D, Friction);
   const auto [i, j] = pairs_[before_.pair[contact]];
+  const std::ptrdiff_t a = particles.stride * i;
+  const std::ptrdiff_t b = particles.stride * j;
   const double half = 0.5 * grown;
   double approach = 0.0;
   double work = 0.0;
   for (int c = 0; c < D; ++c) {
-    const double apart = particles.position[at(i) + c] - particles.position[at(j) + c];
-    const double rate = particles.velocity[at(i) + c] - particles.velocity[at(j) + c];
+    const double apart = particles.position[a + c] - particles.position[b + c];
+    const double rate = particles.velocity[a + c] - particles.velocity[b + c];
     approach += (apart - grown * rate) * rate;
     if constexpr (Friction) work += law_.tangential_stiffness * before_.value[layout.spring + c][contact] * rate;
   }
   sums_.damping[0] += half * before_.value[layout.dashpot][contact] * approach;
   if constexpr (Friction) {
     for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
-      const double rolling =
-          particles.radius[i] * particles.spin[at(i) + c] + particles.radius[j] * particles.spin[at(j) + c];
+      const double rolling = particles.radius[i] * particles.spin[a + c] + particles.radius[j] * particles.spin[b + c];
       work += before_.value[layout.torque + (D == 2 ? 0 : c)][contact] * rolling;
     }
     sums_.tangential[0] += half * work;

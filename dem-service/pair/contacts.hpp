@@ -4,26 +4,33 @@
 /// last step are sorted by their number, so that one pass over both brings them together. docs/decisions/0009.
 ///
 /// Order of calls: whenever particles were reordered or left their margin clear(), then add() and adopt() for every
-/// pair in the order in which forces are to be summed; evaluate() in every step.
+/// pair in the order in which forces are to be summed, or set_pairs() and adopt() for those that touched;
+/// evaluate() in every step.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dem-service/pair/batch.hpp"
+#include "dem-service/pair/pair.hpp"
 #include "dem-service/pair_energy.hpp"
 
 namespace grainstep::dem {
 
 /// Views of this rank's particles, ghosts included.
 struct PairArrays {
-  const double* position = nullptr;  ///< m, three each; LAMMPS keeps them in one block
+  const double* position = nullptr;  ///< m, of the first; of discs two components are read
   const double* velocity = nullptr;  ///< m/s, at t(n-1/2)
   const double* spin = nullptr;      ///< 1/s, likewise
   double* force = nullptr;           ///< N
   double* torque = nullptr;          ///< N m
   const double* radius = nullptr;    ///< m
   const double* mass = nullptr;      ///< kg
+  // Doubles from one particle's vector to the next one's; LAMMPS has three of each in a block of their own.
+  std::ptrdiff_t stride = 3;        ///< of position, velocity and spin
+  std::ptrdiff_t force_stride = 3;  ///< of force and torque
 };
 
 class PairContacts {
@@ -34,19 +41,26 @@ class PairContacts {
   void clear(double largest_radius);
   /// The next pair of the list, by their numbers among the particles.
   void add(int first, int second) { pairs_.push_back({first, second}); }
-  /// The pair added last touched in the last step: values of HistoryLayout.
-  void adopt(const double* values);
+  /// All pairs at once.
+  void set_pairs(std::span<const Pair> pairs) { pairs_.assign(pairs.begin(), pairs.end()); }
+  /// This pair touched in the last step: values of HistoryLayout. In the order of pairs.
+  void adopt(std::size_t pair, const double* values);
+  /// The pair added last did.
+  void adopt(const double* values) { adopt(pairs_.size() - 1, values); }
+
+  /// All particles are alike, m and kg: nothing need be read of each.
+  void set_equal(double radius, double mass);
 
   /// Adds forces and torques. `grown`: s since the last step; 0 at the start.
   void evaluate(const PairArrays& particles, double grown);
+  /// Likewise of `near` alone, the numbers of pairs that may touch; all others do not.
+  void evaluate(const PairArrays& particles, double grown, std::span<const std::uint32_t> near);
 
   [[nodiscard]] const PairEnergy& energy() const { return energy_; }
   [[nodiscard]] int values_per_contact() const { return layout_.values; }
   [[nodiscard]] std::size_t count() const { return now_.size; }
 
-  struct Pair {
-    int first, second;
-  };
+  [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
   [[nodiscard]] const Pair& pair_of(std::size_t contact) const { return pairs_[now_.pair[contact]]; }
   [[nodiscard]] double value(std::size_t contact, int h) const { return now_.value[h][contact]; }
   /// What a value is multiplied by when the second particle of the pair becomes the first: springs point the other way.
@@ -64,8 +78,8 @@ class PairContacts {
 
   template <int D, bool Mixed>
   void find_near(const PairArrays& particles);
-  template <int D, bool Friction>
-  void sweep(const PairArrays& particles, double grown);
+  template <int D, bool Friction, bool Equal>
+  void sweep(const PairArrays& particles, double grown, std::span<const std::uint32_t> near);
   template <int D, bool Friction>
   void flush(const PairArrays& particles, double grown, std::size_t first_contact);
   template <int D, bool Friction>
@@ -75,7 +89,8 @@ class PairContacts {
   PairFeatures features_;
   HistoryLayout layout_;
   PairKernel kernel_;
-  double nearly_ = 0.0;  ///< m^2: pairs further apart cannot touch; of mixed sizes each pair's own radii say so
+  double equal_radius_ = 0.0;  ///< m; 0: they are not
+  double nearly_ = 0.0;        ///< m^2: pairs further apart cannot touch; of mixed sizes each pair's own radii say so
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> near_;
   std::size_t near_count_ = 0;

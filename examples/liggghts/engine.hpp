@@ -27,8 +27,7 @@ class Engine {
     double skin = 0.0;  ///< m, of the neighbour lists
   };
   /// All steps, or up to the one after which the driver has ended.
-  void run(int steps, const Settings& settings, grainstep::dem::StepDriver& driver,
-           grainstep::dem::Exchange& exchange);
+  void run(int steps, const Settings& settings, grainstep::dem::StepDriver& driver, grainstep::dem::Exchange& exchange);
 
  private:
   template <typename... Parts>

@@ -2,8 +2,8 @@
 
 #include <base/error.hpp>
 #include <contact/moving_surface.hpp>
-#include <dem-service/preview.hpp>
 #include <dem-service/exchange.hpp>
+#include <dem-service/preview.hpp>
 #include <dem-service/slug_layout.hpp>
 #include <dem-service/step_driver.hpp>
 #include <limits>

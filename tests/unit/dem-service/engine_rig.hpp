@@ -1,11 +1,15 @@
 /// @file Runs the real engine against a scripted surface, without transport or orchestrator.
 #pragma once
 
+#include <cstdlib>
 #include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "dem-service/mpi_start.hpp"
+#include "dem-service/native/engine.hpp"
+#include "dem-service/native/impactor.hpp"
 #include "dem-service/slug_engine.hpp"
 #include "participant/schedule.hpp"
 
@@ -124,18 +128,32 @@ inline wire::Start start_of(double dt, std::uint64_t windows, std::uint32_t step
   return start;
 }
 
+/// CTest runs the tests of engines twice, once with each of them (cmake/GrainstepTargets.cmake).
+inline bool native_is_tested() {
+  const char* engine = std::getenv("GRAINSTEP_TEST_ENGINE");
+  return engine != nullptr && std::string(engine) == "native";
+}
+
 inline ScriptedLink run(const wire::Setup& setup, const wire::Start& start,
                         const std::vector<PlacedParticle>& particles, const Motion& motion = at_rest()) {
   ScriptedLink link(setup, start, motion);
-  SlugEngine engine(alone(), setup, particles);
-  engine.run(start, &link);
+  if (native_is_tested()) {
+    native::make_engine(slug_model_of(setup), setup.impactor(), particles)->run(start, link);
+  } else {
+    SlugEngine(alone(), setup, particles).run(start, &link);
+  }
   return link;
 }
 
 inline ScriptedLink run_slug(const wire::Setup& setup, const wire::Start& start, const Motion& motion = at_rest()) {
   ScriptedLink link(setup, start, motion);
-  SlugEngine engine(alone(), setup);
-  engine.run(start, &link);
+  if (native_is_tested()) {
+    const auto impactor = native::make_impactor();
+    static_cast<void>(impactor->prepare(setup));
+    impactor->run(start, link);
+  } else {
+    SlugEngine(alone(), setup).run(start, &link);
+  }
   return link;
 }
 

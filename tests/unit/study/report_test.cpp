@@ -74,9 +74,8 @@ TEST_F(ReportTest, ColumnsAreNumbersOfRunsAndFormulasOverThem) {
 
 TEST_F(ReportTest, FindingsHoldFailOrWait) {
   using State = Verdict::State;
-  const std::vector<State> expected = {State::holds, State::fails, State::reported,
-                                       State::fails, State::open,  State::fails,
-                                       State::holds, State::fails, State::fails};
+  const std::vector<State> expected = {State::holds, State::fails, State::reported, State::fails, State::open,
+                                       State::fails, State::holds, State::fails,    State::fails};
   ASSERT_EQ(verdicts_.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(verdicts_[i].state, expected[i]) << i;
   EXPECT_NEAR(verdicts_[0].value, 0.2, 1e-15);
