@@ -43,9 +43,14 @@ void add_impactor(const Impactor& impactor, std::vector<Need>& found) {
   }
 }
 
+using Words = google::protobuf::EnumValueOptions;
+
+const Words& words_of(const google::protobuf::EnumDescriptor& keys, int value) {
+  return keys.FindValueByNumber(value)->options();
+}
+
 template <typename Side>
-Program program_of_side(const Side& side) {
-  const auto& options = Side::Type_descriptor()->FindValueByNumber(side.type())->options();
+Program program_of_side(const Side& side, const Words& options) {
   const std::string& declared = options.GetExtension(options::program);
   std::istringstream words(declared);
   Program out;
@@ -70,7 +75,17 @@ std::vector<Need> needs(const Scene& scene, wire::Role role) {
 unsigned surface_dimension(const Scene& scene) { return scene.symmetry() == SYMMETRY_NONE ? 3 : 2; }
 
 Program program_of(const Scene& scene, wire::Role role) {
-  return role == wire::IMPACTOR ? program_of_side(scene.impactor()) : program_of_side(scene.structure());
+  const Structure& structure = scene.structure();
+  const Impactor& impactor = scene.impactor();
+  if (role == wire::STRUCTURE)
+    return program_of_side(structure, words_of(*Structure::Type_descriptor(), structure.type()));
+  if (impactor.type() != Impactor::TYPE_SLUG) {
+    return program_of_side(impactor, words_of(*Impactor::Type_descriptor(), impactor.type()));
+  }
+  // A scene that nobody has loaded from a file has no defaults.
+  const bool unset = impactor.engine() == Impactor::ENGINE_UNSET;
+  const int engine = unset ? Impactor::ENGINE_LAMMPS : impactor.engine();
+  return program_of_side(impactor, words_of(*Impactor::Engine_descriptor(), engine));
 }
 
 }  // namespace grainstep::scene

@@ -18,6 +18,7 @@ void Contacts<D>::follow(Neighbours<D>& neighbours, const Grains<D>& grains) {
     place_of_[static_cast<std::size_t>(order[n])] = static_cast<std::int32_t>(n);
   }
   kept_.clear();
+  kept_of_.assign(neighbours.count(), -1);
   const int values = contacts_.values_per_contact();
   for (std::size_t n = 0; n < contacts_.count(); ++n) {
     const Pair& pair = contacts_.pair_of(n);
@@ -25,17 +26,19 @@ void Contacts<D>::follow(Neighbours<D>& neighbours, const Grains<D>& grains) {
     const std::int32_t b = place_of_[static_cast<std::size_t>(pair.second)];
     // A pair stands in the list with one of its grains first, whichever that is.
     const std::int32_t straight = neighbours.find(a, b);
-    Kept kept{straight >= 0 ? straight : neighbours.find(b, a), {}};
-    if (kept.pair < 0) continue;  // far apart since the last step: impossible but for what check_speed() tells
+    const std::int32_t k = straight >= 0 ? straight : neighbours.find(b, a);
+    if (k < 0) continue;  // far apart since the last step: impossible but for what check_speed() tells
+    kept_of_[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(kept_.size());
+    Kept& kept = kept_.emplace_back();
     for (int h = 0; h < values; ++h) {
       kept.value[h] = (straight >= 0 ? 1.0 : contacts_.seen_from_second(h)) * contacts_.value(n, h);
     }
-    kept_.push_back(kept);
   }
-  std::sort(kept_.begin(), kept_.end(), [](const Kept& one, const Kept& other) { return one.pair < other.pair; });
   contacts_.clear(grains.largest_radius());
   neighbours.give_pairs(contacts_);
-  for (const Kept& kept : kept_) contacts_.adopt(static_cast<std::size_t>(kept.pair), kept.value);
+  for (std::size_t k = 0; k < kept_of_.size(); ++k) {
+    if (kept_of_[k] >= 0) contacts_.adopt(k, kept_[static_cast<std::size_t>(kept_of_[k])].value);
+  }
 }
 
 template <int D>

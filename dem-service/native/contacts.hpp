@@ -26,7 +26,6 @@ class Contacts {
 
  private:
   struct Kept {
-    std::int32_t pair;
     double value[most_history_values];
   };
 
@@ -35,6 +34,7 @@ class Contacts {
   std::vector<std::uint32_t> near_;
   std::vector<std::int32_t> place_of_;
   std::vector<Kept> kept_;
+  std::vector<std::int32_t> kept_of_;  ///< of each pair of the new list; -1: it did not touch
 };
 
 }  // namespace grainstep::dem::native

@@ -45,6 +45,7 @@ class Neighbours {
   [[nodiscard]] const std::vector<std::int32_t>& order() const { return order_; }
   [[nodiscard]] std::int32_t slow() const { return slow_; }  ///< how many
   [[nodiscard]] const InnerList& inner() const { return inner_; }
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(count_); }
   /// The whole list, for find() and refresh() as well.
   void give_pairs(PairContacts& contacts) const {
     contacts.set_pairs({pairs_.data(), static_cast<std::size_t>(count_)});

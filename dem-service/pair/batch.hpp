@@ -43,13 +43,12 @@ constexpr HistoryLayout history_layout(int dimension, bool friction) {
 
 /// Pairs whose particles may touch, first minus second; all lanes up to the next multiple of batch_lanes are set.
 struct PairBatch {
-  alignas(64) double branch[3][batch_capacity];    ///< m, between the centres
-  alignas(64) double velocity[3][batch_capacity];  ///< m/s, at t(n-1/2)
-  alignas(64) double rolling[3][batch_capacity];   ///< m/s, radius times spin, summed; in the plane only [0]
-  alignas(64) double reach[batch_capacity];        ///< m, sum of the radii
-  alignas(64) double mass_product[batch_capacity];
-  alignas(64) double mass_sum[batch_capacity];
-  alignas(64) double force[3][batch_capacity];  ///< N, on the first particle
+  alignas(64) double branch[3][batch_capacity];       ///< m, between the centres
+  alignas(64) double velocity[3][batch_capacity];     ///< m/s, at t(n-1/2)
+  alignas(64) double rolling[3][batch_capacity];      ///< m/s, radius times spin, summed; in the plane only [0]
+  alignas(64) double reach[batch_capacity];           ///< m, sum of the radii
+  alignas(64) double effective_mass[batch_capacity];  ///< kg
+  alignas(64) double force[3][batch_capacity];        ///< N, on the first particle
   int count = 0;
 };
 

@@ -22,16 +22,6 @@ namespace {
 
 constexpr std::uint32_t no_pair = std::numeric_limits<std::uint32_t>::max();
 
-/// Which pairs touch is known well before they are computed, but not to the processor: it fetches nothing by itself.
-constexpr std::size_t ahead = 12;
-
-void fetch(const PairArrays& particles, const Pair& pair) {
-  __builtin_prefetch(particles.position + particles.stride * pair.first);
-  __builtin_prefetch(particles.position + particles.stride * pair.second);
-  __builtin_prefetch(particles.force + particles.force_stride * pair.first, 1);
-  __builtin_prefetch(particles.force + particles.force_stride * pair.second, 1);
-}
-
 std::vector<const PairKernels*> detect() {
   std::vector<const PairKernels*> found;
 #if defined(__x86_64__)
@@ -96,8 +86,7 @@ void PairContacts::clear(double largest_radius) {
 void PairContacts::set_equal(double radius, double mass) {
   equal_radius_ = radius;
   std::fill(std::begin(batch_.reach), std::end(batch_.reach), radius + radius);
-  std::fill(std::begin(batch_.mass_product), std::end(batch_.mass_product), mass * mass);
-  std::fill(std::begin(batch_.mass_sum), std::end(batch_.mass_sum), mass + mass);
+  std::fill(std::begin(batch_.effective_mass), std::end(batch_.effective_mass), mass * mass / (mass + mass));
 }
 
 void PairContacts::adopt(std::size_t pair, const double* values) {
@@ -159,39 +148,67 @@ void PairContacts::find_near(const PairArrays& particles) {
 
 template <int D, bool Friction, bool Equal>
 void PairContacts::sweep(const PairArrays& particles, double grown, std::span<const std::uint32_t> near) {
-  constexpr int values = history_layout(D, Friction).values;
-  const std::ptrdiff_t stride = particles.stride;
   std::swap(before_, now_);
-  now_.reserve(near.size(), values);
+  now_.reserve(near.size(), layout_.values);
+  now_.size = 0;
   sums_ = {};
-  batch_.count = 0;
   std::size_t old = 0;
-  std::size_t size = 0;
-  std::size_t flushed = 0;
-  double radius[2] = {equal_radius_, equal_radius_};
-  for (std::size_t n = 0; n < near.size(); ++n) {
-    const std::uint32_t k = near[n];
-    if (n + ahead < near.size()) fetch(particles, pairs_[near[n + ahead]]);
+  std::size_t looked_at = 0;
+  while (looked_at < near.size()) {
+    const std::size_t flushed = now_.size;
+    looked_at += find_touching<D, Equal>(particles, near.subspan(looked_at));
+    gather<D, Friction, Equal>(particles, flushed);
+    old = hand_on<D, Friction>(particles, grown, flushed, old);
+    if (looked_at == near.size()) {
+      while (old < before_.size) finish<D, Friction>(particles, grown, old++);
+    }
+    flush<D, Friction>(particles, grown, flushed);
+  }
+  while (old < before_.size) finish<D, Friction>(particles, grown, old++);
+  now_.end(layout_.values);
+}
+
+/// Appends pairs that touch to now_, with their branch vectors in the batch, until that is full; returns how many were
+/// looked at.
+template <int D, bool Equal>
+std::size_t PairContacts::find_touching(const PairArrays& particles, std::span<const std::uint32_t> near) {
+  const double* const position = particles.position;
+  const std::ptrdiff_t stride = particles.stride;
+  std::uint32_t* const number = now_.pair.data() + now_.size;
+  const double equal = equal_radius_ + equal_radius_;
+  std::size_t looked_at = 0;
+  int count = 0;
+  while (looked_at < near.size() && count < batch_capacity) {
+    const std::uint32_t k = near[looked_at++];
     const auto [i, j] = pairs_[k];
-    const double* a = particles.position + stride * i;
-    const double* b = particles.position + stride * j;
+    const double* a = position + stride * i;
+    const double* b = position + stride * j;
+    const double reach = Equal ? equal : particles.radius[i] + particles.radius[j];
+    for (int c = 0; c < D; ++c) batch_.branch[c][count] = a[c] - b[c];
+    number[count] = k;
+    count += squared_distance<D>(a, b) < reach * reach ? 1 : 0;
+  }
+  batch_.count = count;
+  now_.size += static_cast<std::size_t>(count);
+  return looked_at;
+}
+
+/// The rest of what the kernel needs to know of the batch's pairs.
+template <int D, bool Friction, bool Equal>
+void PairContacts::gather(const PairArrays& particles, std::size_t first_contact) {
+  const std::ptrdiff_t stride = particles.stride;
+  const std::uint32_t* const number = now_.pair.data() + first_contact;
+  double radius[2] = {equal_radius_, equal_radius_};
+  for (int l = 0; l < batch_.count; ++l) {
+    const auto [i, j] = pairs_[number[l]];
     if constexpr (!Equal) {
       radius[0] = particles.radius[i];
       radius[1] = particles.radius[j];
+      batch_.reach[l] = radius[0] + radius[1];
+      batch_.effective_mass[l] = particles.mass[i] * particles.mass[j] / (particles.mass[i] + particles.mass[j]);
     }
-    const double reach = radius[0] + radius[1];
-    if (!(squared_distance<D>(a, b) < reach * reach)) continue;
-    while (before_.pair[old] < k) finish<D, Friction>(particles, grown, old++);
-    const bool lasting = before_.pair[old] == k;
-    const std::size_t source = lasting ? old : before_.size;  // what stands behind the last has no history
-    for (int h = 0; h < values; ++h) now_.value[h][size] = before_.value[h][source];
-    old += lasting ? 1 : 0;
-    now_.pair[size++] = k;
-
-    const int l = batch_.count++;
     const double* v = particles.velocity + stride * i;
     const double* w = particles.velocity + stride * j;
-    for (int c = 0; c < D; ++c) batch_.branch[c][l] = a[c] - b[c];
     for (int c = 0; c < D; ++c) batch_.velocity[c][l] = v[c] - w[c];
     if constexpr (Friction) {
       const double* p = particles.spin + stride * i;
@@ -200,20 +217,33 @@ void PairContacts::sweep(const PairArrays& particles, double grown, std::span<co
         batch_.rolling[D == 2 ? 0 : c][l] = radius[0] * p[c] + radius[1] * q[c];
       }
     }
-    if constexpr (!Equal) {
-      batch_.reach[l] = reach;
-      batch_.mass_product[l] = particles.mass[i] * particles.mass[j];
-      batch_.mass_sum[l] = particles.mass[i] + particles.mass[j];
-    }
-    if (batch_.count == batch_capacity) {
-      flush<D, Friction>(particles, grown, flushed);
-      flushed = size;
-    }
   }
-  while (old < before_.size) finish<D, Friction>(particles, grown, old++);
-  flush<D, Friction>(particles, grown, flushed);
-  now_.size = size;
-  now_.end(values);
+}
+
+/// Gives the batch's pairs the histories that they have, and ends contacts that stand before them. `old`: the first of
+/// before_ that is still to be looked at; returns the next one.
+template <int D, bool Friction>
+std::size_t PairContacts::hand_on(const PairArrays& particles, double grown, std::size_t first_contact,
+                                  std::size_t old) {
+  constexpr int values = history_layout(D, Friction).values;
+  const std::uint32_t* const number = now_.pair.data() + first_contact;
+  const double* before[values];
+  double* now[values];
+  for (int h = 0; h < values; ++h) {
+    before[h] = before_.value[h].data();
+    now[h] = now_.value[h].data() + first_contact;
+  }
+  const std::uint32_t* const last = before_.pair.data();
+  const std::size_t none = before_.size;  // what stands behind the last has no history
+  for (int l = 0; l < batch_.count; ++l) {
+    const std::uint32_t k = number[l];
+    while (last[old] < k) finish<D, Friction>(particles, grown, old++);
+    const bool lasting = last[old] == k;
+    const std::size_t source = lasting ? old : none;
+    for (int h = 0; h < values; ++h) now[h][l] = before[h][source];
+    old += lasting ? 1 : 0;
+  }
+  return old;
 }
 
 template <int D, bool Friction>
@@ -224,7 +254,7 @@ void PairContacts::flush(const PairArrays& particles, double grown, std::size_t 
     for (int c = 0; c < D; ++c) batch_.branch[c][l] = c == 0 ? (equal_radius_ > 0.0 ? batch_.reach[l] : 1.0) : 0.0;
     for (int c = 0; c < D; ++c) batch_.velocity[c][l] = batch_.rolling[c][l] = 0.0;
     for (int h = 0; h < layout.values; ++h) now_.value[h][first_contact + static_cast<std::size_t>(l)] = 0.0;
-    if (equal_radius_ == 0.0) batch_.reach[l] = batch_.mass_product[l] = batch_.mass_sum[l] = 1.0;
+    if (equal_radius_ == 0.0) batch_.reach[l] = batch_.effective_mass[l] = 1.0;
   }
   double* history[most_history_values] = {};
   for (int h = 0; h < layout.values; ++h) history[h] = now_.value[h].data() + first_contact;

@@ -80,6 +80,12 @@ class PairContacts {
   void find_near(const PairArrays& particles);
   template <int D, bool Friction, bool Equal>
   void sweep(const PairArrays& particles, double grown, std::span<const std::uint32_t> near);
+  template <int D, bool Equal>
+  std::size_t find_touching(const PairArrays& particles, std::span<const std::uint32_t> near);
+  template <int D, bool Friction, bool Equal>
+  void gather(const PairArrays& particles, std::size_t first_contact);
+  template <int D, bool Friction>
+  std::size_t hand_on(const PairArrays& particles, double grown, std::size_t first_contact, std::size_t old);
   template <int D, bool Friction>
   void flush(const PairArrays& particles, double grown, std::size_t first_contact);
   template <int D, bool Friction>

@@ -109,7 +109,7 @@ GS_PAIR_INLINE void touch(const PairLaw& law, double grown, PairBatch& batch, do
   const double per_squared = 1.0 / squared;
   const double overlap = batch.reach[l] - length;
   const double approach = product<D>(velocity, branch);
-  const double effective_mass = batch.mass_product[l] / batch.mass_sum[l];
+  const double effective_mass = batch.effective_mass[l];
   double damping_rate = law.damping_rate;
   if constexpr (Mixed) damping_rate = contact::damping_rate(*law.damping_table, effective_mass);
   after[0] = effective_mass * damping_rate * approach * per_squared;

@@ -41,6 +41,12 @@ class ConformanceOfOurOwn(unittest.TestCase):
     def test_slug(self):
         self.keeps_all("impactor", "--scene", QUICK)
 
+    def test_slug_of_the_native_engine(self):
+        self.keeps_all("impactor", "--scene", QUICK, "--set", "impactor.engine=native")
+
+    def test_slice_of_spheres_of_the_native_engine(self):
+        self.keeps_all("impactor", "--scene", ROOT / "configs/small/plate-quick.yaml", "--set", "impactor.engine=native")
+
     def test_slice_of_spheres(self):
         self.keeps_all("impactor", "--scene", ROOT / "configs/small/plate-quick.yaml")
 

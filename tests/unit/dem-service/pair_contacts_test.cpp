@@ -41,8 +41,7 @@ void evaluate(const PairKernels& kernels, const PairFeatures& features, Result& 
       result.batch.rolling[c][l] = uniform(random, -100.0, 100.0);
     }
     result.batch.reach[l] = 1.1e-3;
-    result.batch.mass_product[l] = uniform(random, 1e-12, 5e-12);
-    result.batch.mass_sum[l] = uniform(random, 2e-6, 5e-6);
+    result.batch.effective_mass[l] = uniform(random, 0.2e-6, 2.5e-6);
     for (auto& value : result.history) value[static_cast<std::size_t>(l)] = uniform(random, -1e-6, 1e-6);
   }
   double* history[most_history_values];
