@@ -10,7 +10,7 @@ namespace grainstep::fuzz {
 
 using Random = std::mt19937_64;
 
-/// One to four changes.
+/// One change, or some.
 void mutate(Script& script, Random& random);
 
 /// `script` goes on like `other` from some message on.

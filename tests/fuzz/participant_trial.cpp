@@ -1,5 +1,7 @@
 #include "participant_trial.hpp"
 
+#include <sys/resource.h>
+
 #include <sstream>
 
 #include "base/assert.hpp"
@@ -9,10 +11,24 @@
 namespace grainstep::fuzz {
 namespace {
 
+/// Whoever serves gives way to others, by a step of the scheduler's for each script. Where the system allows it, this
+/// takes them back.
+class Priority {
+ public:
+  Priority() = default;
+  Priority(const Priority&) = delete;
+  Priority& operator=(const Priority&) = delete;
+  ~Priority() { static_cast<void>(::setpriority(PRIO_PROCESS, 0, before_)); }
+
+ private:
+  int before_ = ::getpriority(PRIO_PROCESS, 0);
+};
+
 template <class Serve>
 void try_serving(const Script& script, Serve serve) {
   Liar orchestrator(script, "orchestrator");
   std::ostringstream errors;
+  const Priority priority;
   const int code = serve(orchestrator, participant::ServeOptions{.errors = &errors});
   if (code == static_cast<int>(ExitCode::done)) {
     ++statistics().complete;
