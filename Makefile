@@ -4,8 +4,8 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages configured build demo demo-programs test test-long verify sanitize fuzz drill golden bench bench-plates \
-  accuracy figures docs containers clean
+.PHONY: help packages configured build demo demo-programs test test-long verify sanitize fuzz drill golden bench \
+  bench-plates accuracy figures docs containers clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -14,7 +14,7 @@ help:
 	@echo "make test-long the long tests: convergence, full scenes"
 	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md and its pages (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
-	@echo "make fuzz      lies to both sides of the protocol under sanitizers, with libFuzzer (FUZZ_RUNS=20000: how many sessions)"
+	@echo "make fuzz      lies to both sides of the protocol under sanitizers, with libFuzzer (FUZZ_RUNS=20000)"
 	@echo "make drill     faults put into a copy of the sources: which tests see them (docs/drill.md, about an hour)"
 	@echo "make golden    do short runs of every kind still give the bits of this results version"
 	@echo "make bench     the speed table of bench/README.md"
