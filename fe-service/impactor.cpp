@@ -16,7 +16,7 @@ wire::Hello Impactor::describe() const {
 
 wire::Ready Impactor::prepare(const wire::Setup& setup) {
   scene::require_ranges(setup.impactor().impactor(), "impactor");
-  scene::require_ranges(setup.impactor().guards(), "guards");
+  if (setup.impactor().has_guards()) scene::require_ranges(setup.impactor().guards(), "guards");
   if (setup.impactor().impactor().type() == scene::Impactor::TYPE_FOAM) {
     impactor_ = std::make_unique<FoamImpactor>();
   } else {

@@ -24,7 +24,7 @@ wire::Hello Structure::describe() const {
 wire::Ready Structure::prepare(const wire::Setup& setup) {
   if (!setup.has_structure()) throw InputError("setup: grainstep-fe is a structure, but was sent an impactor's part");
   scene::require_ranges(setup.structure().structure(), "structure");
-  scene::require_ranges(setup.structure().guards(), "guards");
+  if (setup.structure().has_guards()) scene::require_ranges(setup.structure().guards(), "guards");
   const StructurePreview found = preview(setup.structure().structure(), setup.symmetry(), setup.depth());
   wire::Ready ready = found.ready();
   ready.set_scene_hash(setup.scene_hash());

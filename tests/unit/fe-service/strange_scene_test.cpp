@@ -50,7 +50,7 @@ TEST(StrangeScene, ANumberOutOfItsKeysRangeIsRefused) {
                 [](wire::Setup& s) { structure_in(s).mutable_mesh()->set_refinement(0.0); }},
                {"structure.layers.0.thickness: found nan, expected a number above 0, in m",
                 [](wire::Setup& s) { structure_in(s).mutable_layers(0)->set_thickness(std::nan("")); }},
-               {"structure.layers.0.poisson: found 0.5, expected a number above -1 and below 0.5",
+               {"structure.layers.0.poisson: found 0.5, expected a number above -1, below 0.5",
                 [](wire::Setup& s) { structure_in(s).mutable_layers(0)->set_poisson(0.5); }},
                {"structure.layers: none given", [](wire::Setup& s) { structure_in(s).clear_layers(); }},
                {"structure.bulk_viscosity.linear: found -1",
