@@ -19,10 +19,20 @@ void rest_on(const surface::Polyline& surface, std::span<const double> radii, st
   const auto radius = [&](std::size_t i) { return radii[radii.size() == 1 ? 0 : i]; };
   double top = -std::numeric_limits<double>::infinity();
   double bottom = std::numeric_limits<double>::infinity();
+  double left_end = std::numeric_limits<double>::infinity();
+  double right_end = -std::numeric_limits<double>::infinity();
   for (const Vec2& node : surface.nodes()) {
     top = std::max(top, node[1]);
     bottom = std::min(bottom, node[1]);
+    left_end = std::min(left_end, node[0]);
+    right_end = std::max(right_end, node[0]);
   }
+  bool any_above = false;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    any_above = any_above || (centres[i][0] >= left_end - radius(i) && centres[i][0] <= right_end + radius(i));
+  }
+  const char* const beside = "impactor.slug: nothing of it stands above the structure's surface";
+  if (!any_above) throw InputError(beside);
   std::size_t lowest = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     if (centres[i][1] - centres[lowest][1] < radius(i) - radius(lowest)) lowest = i;
@@ -51,7 +61,7 @@ void rest_on(const surface::Polyline& surface, std::span<const double> radii, st
     if (!std::isfinite(sink) || (sink > 0.0 && all_below())) break;
     for (Vec2& p : centres) p[1] -= sink;
   }
-  throw InputError("impactor.slug: nothing of it stands above the structure's surface");
+  throw InputError(beside);
 }
 
 }  // namespace grainstep::contact

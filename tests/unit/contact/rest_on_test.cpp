@@ -23,6 +23,8 @@ TEST(RestOn, DiscsBesideTheSurfaceAreRefusedAtOnce) {
   std::vector<Vec2> discs;
   for (int i = 0; i < 200; ++i) discs.push_back({{1.0101 + 0.01 * i, 5.0}});
   const double radius = 0.01;
+  std::vector<Vec2> far = {{{1e15, 5.0}}};
+  EXPECT_THROW(rest_on(flat, std::span(&radius, 1), far), InputError);
   EXPECT_THROW(rest_on(flat, std::span(&radius, 1), discs), InputError);
 }
 
