@@ -4,8 +4,8 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages configured build demo demo-programs test test-long verify sanitize drill golden bench bench-plates \
-  accuracy figures docs containers clean
+.PHONY: help packages configured build demo demo-programs test test-long verify sanitize fuzz drill golden bench \
+  bench-plates accuracy figures docs containers clean
 
 help:
 	@echo "make demo      a sand slug hits a steel beam: summary and picture (about a minute)"
@@ -14,6 +14,7 @@ help:
 	@echo "make test-long the long tests: convergence, full scenes"
 	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md and its pages (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
+	@echo "make fuzz      lies to both sides of the protocol under sanitizers, with libFuzzer (FUZZ_RUNS=20000)"
 	@echo "make drill     faults put into a copy of the sources: which tests see them (docs/drill.md, about an hour)"
 	@echo "make golden    do short runs of every kind still give the bits of this results version"
 	@echo "make bench     the speed table of bench/README.md"
@@ -71,6 +72,16 @@ sanitize: packages
 	@test -f build-sanitize/build.ninja || cmake --preset sanitize
 	@cmake --build --preset sanitize -j $(JOBS)
 	@ctest --preset sanitize -j $(JOBS)
+
+# FUZZ_RUNS: scripts for each target, times its share. FUZZ_OPTIONS='--page tests/fuzz/README.md' writes what was done into
+# the page, --keep adds to the corpus, --only NAME runs one target (tests/fuzz/README.md).
+FUZZ_RUNS ?= 20000
+FUZZ_TARGETS := $(addprefix fuzz-,frame checks session recorder participant structure impactor)
+fuzz:
+	@tools/install-packages build fuzz
+	@test -f build-fuzz/build.ninja || cmake --preset fuzz
+	@cmake --build --preset fuzz -j $(JOBS) --target $(FUZZ_TARGETS)
+	@$(PYTHON) tools/fuzz --runs $(FUZZ_RUNS) $(FUZZ_OPTIONS)
 
 # DRILL_OPTIONS=--only NAME tries one fault, --list shows them all, --keep keeps the scratch copy and its build.
 drill: packages

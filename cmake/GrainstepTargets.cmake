@@ -23,6 +23,18 @@ if(GRAINSTEP_SANITIZE)
   target_compile_options(grainstep_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
   target_link_options(grainstep_options INTERFACE -fsanitize=address,undefined)
 endif()
+# The programs of tests/fuzz with libFuzzer, and all that they link with its coverage and these sanitizers: clang only.
+option(GRAINSTEP_FUZZ "Fuzz targets with libFuzzer (clang)" OFF)
+if(GRAINSTEP_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "GRAINSTEP_FUZZ needs clang, found ${CMAKE_CXX_COMPILER_ID}: configure with `cmake --preset fuzz`")
+  endif()
+  # A number that does not fit the integer it becomes is looked for, too: clang leaves it out of `undefined`.
+  set(GRAINSTEP_FUZZ_SANITIZERS address,undefined,float-cast-overflow)
+  target_compile_options(grainstep_options INTERFACE -fsanitize=fuzzer-no-link,${GRAINSTEP_FUZZ_SANITIZERS}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all -Wno-unknown-warning-option)
+  target_link_options(grainstep_options INTERFACE -fsanitize=${GRAINSTEP_FUZZ_SANITIZERS})
+endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1")  # line numbers for perf and backtraces; values want the debug preset
 
@@ -100,7 +112,9 @@ endfunction()
 # grainstep_instruction_sets(OUT): the copies that a kernel's source is compiled into; which of them runs is decided at run
 # time. On x86-64 its levels, on every other machine one copy for whatever the compiler targets.
 function(grainstep_instruction_sets out)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  if(GRAINSTEP_FUZZ)  # one is enough to try, and takes a sanitizer's compiler long enough
+    set(${out} generic PARENT_SCOPE)
+  elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
     set(${out} x86_64 x86_64_v3 x86_64_v4 PARENT_SCOPE)
   else()
     set(${out} generic PARENT_SCOPE)

@@ -234,8 +234,7 @@ void Deformable::adapt() {
     if (step() > stable_step_) check_fixed_step(body_, step(), progress());
     return;
   }
-  const double needed = std::ceil(window_length_ / (kStepLimit * stable_step_));
-  substeps_ = std::max(substeps_, static_cast<std::uint32_t>(needed));
+  substeps_ = std::max(substeps_, steps_needed(window_length_, kStepLimit * stable_step_, progress()));
 }
 
 Progress Deformable::progress() const {

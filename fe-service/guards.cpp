@@ -105,6 +105,16 @@ void check_fixed_step(const Body& body, double step, const Progress& progress) {
                   step, name_of_quad(body, worst), worst.value, when(progress)));
 }
 
+std::uint32_t steps_needed(double window, double longest, const Progress& progress) {
+  constexpr double most = 1e9;
+  const double needed = std::ceil(window / longest);
+  if (needed <= most) return static_cast<std::uint32_t>(needed);
+  throw NumericalError(fmt::format(
+      "stable step: a window of {:.4g} s would take {:.4g} steps of {:.4g} s, {}; the run would not end: ask "
+      "for shorter windows, or check the density and stiffness of what is computed",
+      window, needed, longest, when(progress)));
+}
+
 void material_failed(const Body& body, const Progress& progress) {
   check_finite(body, progress);
   throw NumericalError(

@@ -33,4 +33,8 @@ void check_fixed_step(const Body& body, double step, const Progress& progress);
 /// Throws NumericalError: the material's local iteration did not converge.
 [[noreturn]] void material_failed(const Body& body, const Progress& progress);
 
+/// How many steps of at most `longest` s a window of `window` s takes. Throws NumericalError where no run could take so
+/// many.
+[[nodiscard]] std::uint32_t steps_needed(double window, double longest, const Progress& progress);
+
 }  // namespace grainstep::fe

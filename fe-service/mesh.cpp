@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/physical_memory.hpp"
 
 namespace grainstep::fe {
 
 namespace {
-
-// More than any machine of today finishes; a typing error rather than a wish.
-constexpr double kMostQuads = 1e8;
 
 double wanted_size(const scene::Structure& structure) {
   const double first = structure.layers(0).thickness();
@@ -41,6 +39,15 @@ void add_layer(Mesh& mesh, int layer, double thickness, double top) {
 
 }  // namespace
 
+void require_fits(double quads, const std::string& key) {
+  constexpr double most = 1e8;
+  constexpr double least_bytes = 8.0 * (2 * 10 + 4 * 4);  // two nodes' arrays, the stresses of four triangles
+  if (!(quads < most)) throw InputError(key + "; lower it");
+  if (quads * least_bytes <= physical_memory()) return;
+  throw InputError(fmt::format("{}, which take more than {:.3g} GB; this machine has {:.3g} GB: lower it", key,
+                               1e-9 * quads * least_bytes, 1e-9 * physical_memory()));
+}
+
 Mesh make_mesh(const scene::Structure& structure) {
   if (structure.layers().empty()) throw InputError("structure.layers: none given; a beam needs at least one");
   const double size = wanted_size(structure);
@@ -53,11 +60,10 @@ Mesh make_mesh(const scene::Structure& structure) {
   }
   const double half = structure.half_span();
   const double half_columns = count(half, size);
-  if (!(half_columns * rows < kMostQuads)) {
-    throw InputError(fmt::format("structure.mesh.refinement: {:g} gives {:g} x {:g} elements of {:g} m; lower it",
-                                 structure.mesh().refinement(), half_columns, rows, size));
-  }
   const bool symmetric = structure.extent() != scene::Structure::EXTENT_FULL;
+  require_fits(half_columns * rows * (symmetric ? 1.0 : 2.0),
+               fmt::format("structure.mesh.refinement: {:g} gives {:g} x {:g} elements of {:g} m",
+                           structure.mesh().refinement(), half_columns, rows, size));
   Mesh mesh{};
   mesh.symmetric = symmetric;
   mesh.element_size = size;

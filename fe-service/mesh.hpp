@@ -4,12 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "fe-service/kernel/layout.hpp"
 #include "grainstep/scene.pb.h"
 
 namespace grainstep::fe {
+
+/// Throws InputError where so many quads are more than any machine of today finishes, a typing error rather than a
+/// wish, or do not fit into this one's memory: the system would end whoever asks for that without a word. `key`: the
+/// scene's, that asks for them, with its value.
+void require_fits(double quads, const std::string& key);
 
 struct ElementRow {
   int layer;         ///< index into the scene's layers

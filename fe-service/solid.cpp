@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/error.hpp"
 
 namespace grainstep::fe {
@@ -9,6 +11,8 @@ namespace grainstep::fe {
 Measure make_measure(scene::Symmetry symmetry, double depth) {
   switch (symmetry) {
     case scene::SYMMETRY_PLANE_STRAIN:
+      if (!(depth > 0.0) || !std::isfinite(depth))
+        throw InputError(fmt::format("depth: found {:g} m, expected a length above 0", depth));
       return PlaneStrain{depth};
     case scene::SYMMETRY_AXISYMMETRIC:
       return Axisymmetric{};

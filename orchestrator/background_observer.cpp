@@ -13,6 +13,8 @@ template <class... Handlers>
 struct Overloaded : Handlers... {
   using Handlers::operator()...;
 };
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;  // deduced without it by C++20, but not by clang 14
 
 }  // namespace
 

@@ -7,14 +7,13 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "ledger/message_numbers.hpp"
+#include "participant/check_surface.hpp"
 #include "scene/suggest.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
 
 constexpr int digits = 4;  // of times and steps, in messages
-
-using Values = google::protobuf::RepeatedField<double>;
 
 [[noreturn]] void refuse(const Peer& peer, const std::string& text) { throw PeerError(peer.name(), text); }
 
@@ -48,57 +47,23 @@ void check_not_negative(const Peer& peer) {
   }
 }
 
-void check_length(const Peer& peer, const char* what, const Values& values, int expected) {
-  if (values.size() == expected) return;
-  refuse(peer, "Ready.surface." + std::string(what) + " holds " + std::to_string(values.size()) +
-                   " numbers, expected " + std::to_string(expected) +
-                   ": as many as the other, a multiple of the dimension");
-}
-
-/// Length of a segment, twice the area of a triangle.
-double extent_of(const wire::Surface& surface, int first) {
-  const auto n = static_cast<int>(surface.dimension());
-  double edge[2][3] = {};
-  for (int k = 1; k < n; ++k) {
-    for (int c = 0; c < n; ++c) {
-      edge[k - 1][c] = surface.position(n * static_cast<int>(surface.facet(first + k)) + c) -
-                       surface.position(n * static_cast<int>(surface.facet(first)) + c);
-    }
-  }
-  if (n == 2) return std::hypot(edge[0][0], edge[0][1]);
-  const auto cross = [&](int a, int b) { return edge[0][a] * edge[1][b] - edge[0][b] * edge[1][a]; };
-  return std::hypot(cross(1, 2), cross(2, 0), cross(0, 1));
-}
-
-void check_facets(const Peer& peer, const wire::Surface& surface, unsigned nodes) {
-  const auto n = static_cast<int>(surface.dimension());
-  if (surface.facet_size() == 0 || surface.facet_size() % n != 0) {
-    refuse(peer, "Ready.surface.facet holds " + std::to_string(surface.facet_size()) + " node numbers, expected " +
-                     std::to_string(n) + " for each facet, and one facet at least");
-  }
-  for (int i = 0; i < surface.facet_size(); ++i) {
-    if (surface.facet(i) < nodes) continue;
-    refuse(peer, "Ready.surface: facet " + std::to_string(i / n) + " names node " + std::to_string(surface.facet(i)) +
-                     ", but the surface has " + std::to_string(nodes) + " nodes, counted from 0");
-  }
-  for (int i = 0; i < surface.facet_size(); i += n) {
-    if (extent_of(surface, i) > 0.0) continue;
-    refuse(peer, "Ready.surface: facet " + std::to_string(i / n) + " has no " + (n == 2 ? "length" : "area"));
+/// Nodes of a surface of revolution are rings at (r, z): a facet on the axis, or beyond it, has no area.
+void check_rings(const Peer& peer, const wire::Surface& surface) {
+  for (int i = 0; i + 1 < surface.facet_size(); i += 2) {
+    const double a = surface.position(2 * static_cast<int>(surface.facet(i)));
+    const double b = surface.position(2 * static_cast<int>(surface.facet(i + 1)));
+    if (a >= 0.0 && b >= 0.0 && a + b > 0.0) continue;
+    refuse(peer, "Ready.surface: facet " + std::to_string(i / 2) + " reaches from r = " + rounded_text(a, digits) +
+                     " m to " + rounded_text(b, digits) +
+                     " m; a ring's radius is 0 or above, and one of the two above 0");
   }
 }
 
 void check_surface(const Peer& peer, const Demands& demands) {
-  const wire::Surface& surface = peer.ready.surface();
-  if (surface.dimension() != demands.dimension) {
-    refuse(peer, "Ready.surface has dimension " + std::to_string(surface.dimension()) + ", the run has " +
-                     std::to_string(demands.dimension));
+  if (const auto found = participant::surface_problem(peer.ready.surface(), demands.dimension)) {
+    refuse(peer, "Ready.surface" + *found);
   }
-  const int size = surface.position_size();
-  const auto dimension = static_cast<int>(demands.dimension);
-  if (size == 0) refuse(peer, "Ready.surface has no nodes: there would be nothing to touch");
-  check_length(peer, "position", surface.position(), size - size % dimension);
-  check_length(peer, "velocity", surface.velocity(), size);
-  check_facets(peer, surface, static_cast<unsigned>(size / dimension));
+  if (demands.of_revolution) check_rings(peer, peer.ready.surface());
 }
 
 }  // namespace

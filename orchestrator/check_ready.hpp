@@ -16,6 +16,7 @@ struct Demands {
   std::vector<scene::Need> needs;
   std::uint64_t scene_hash = 0;
   bool preview = false;
+  bool of_revolution = false;  ///< the surface's nodes are rings
 };
 
 /// PeerError where the peer speaks another version or another role; InputError, which names the scene's key, for what

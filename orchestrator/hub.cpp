@@ -1,6 +1,13 @@
 #include "orchestrator/hub.hpp"
 
 namespace grainstep::orchestrator {
+namespace {
+
+// For all last words together: what was said before the loss is here, or almost; a peer that is lost to us for what it
+// said may well go on for ever.
+constexpr std::chrono::milliseconds patience_for_last_words{1000};
+
+}  // namespace
 
 Hub::Hub(transport::Channel& impactor, transport::Channel& structure, EventLoop& loop, Watchdog watchdog)
     : impactor_(wire::IMPACTOR, impactor),
@@ -27,7 +34,8 @@ bool Hub::take_one(Peer& peer, const Handler& handler) {
 
 void Hub::hear_last_words(const std::string& peer, const Handler& handler) {
   Peer& lost = peer == impactor_.name() ? impactor_ : structure_;
-  while (!lost.finished) {
+  const transport::Deadline end = transport::in(patience_for_last_words);
+  while (!lost.finished && transport::Clock::now() < end) {
     const wire::Frame* frame = nullptr;
     try {
       frame = lost.messages.receive(transport::in(std::chrono::milliseconds(100)));

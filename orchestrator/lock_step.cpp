@@ -40,8 +40,8 @@ LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, d
   for (Extra* side : {&impactor_, &structure_}) {
     const std::uint64_t first = start.first_window();
     const participant::Due due = participant::due_at(start, first);
-    side->next_report = due.report ? first : next_due(first, true);
-    side->next_snapshot = due.snapshot ? first : next_due(first, false);
+    side->next_report = due.report ? first : participant::next_due(start, first, &participant::Due::report);
+    side->next_snapshot = due.snapshot ? first : participant::next_due(start, first, &participant::Due::snapshot);
     side->last_snapshot = side->next_snapshot > start.windows();
   }
 }
@@ -168,15 +168,6 @@ void LockStep::require_motion(const Peer& structure) {
   position_.assign(kinematics_.position().begin(), kinematics_.position().end());
 }
 
-// The next window after `window` at which a report, or else a snapshot, is due.
-std::uint64_t LockStep::next_due(std::uint64_t window, bool report) const {
-  for (++window; window <= start_.windows(); ++window) {
-    const participant::Due due = participant::due_at(start_, window);
-    if (report ? due.report : due.snapshot) break;
-  }
-  return window;
-}
-
 void LockStep::on_report(Peer& peer, const wire::Frame& frame) {
   Extra& side = extra(peer);
   if (side.last_report) {
@@ -189,7 +180,7 @@ void LockStep::on_report(Peer& peer, const wire::Frame& frame) {
   }
   side.check.report(peer, report_);
   side.last_report = side.next_report == start_.windows();
-  side.next_report = next_due(side.next_report, true);
+  side.next_report = participant::next_due(start_, side.next_report, &participant::Due::report);
   peer.timing = report_.timing();
   observer_.report(peer.role, report_);
 }
@@ -202,7 +193,7 @@ void LockStep::on_snapshot(Peer& peer, const wire::Frame& frame) {
   wire::Snapshot snapshot;
   peer.messages.take(frame, snapshot, side.next_snapshot);
   side.check.snapshot(peer, snapshot);
-  side.next_snapshot = next_due(side.next_snapshot, false);
+  side.next_snapshot = participant::next_due(start_, side.next_snapshot, &participant::Due::snapshot);
   side.last_snapshot = side.next_snapshot > start_.windows();
   observer_.snapshot(peer.role, std::move(snapshot));
 }

@@ -46,7 +46,6 @@ class LockStep {
     ReportCheck check;
   };
   Extra& extra(const Peer& peer) { return peer.role == wire::IMPACTOR ? impactor_ : structure_; }
-  [[nodiscard]] std::uint64_t next_due(std::uint64_t window, bool report) const;
 
   Hub& hub_;
   StepObserver& observer_;

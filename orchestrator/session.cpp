@@ -10,7 +10,8 @@ Demands Session::demands_of(const Peer& peer) const {
   return {.dimension = scene::surface_dimension(task_.scene),
           .needs = scene::needs(task_.scene, peer.role),
           .scene_hash = task_.hash,
-          .preview = task_.preview};
+          .preview = task_.preview,
+          .of_revolution = task_.scene.symmetry() == scene::SYMMETRY_AXISYMMETRIC};
 }
 
 void Session::introduce() {
@@ -157,7 +158,11 @@ void Session::abandon(const std::string& reason, const std::string& lost) noexce
     lose(lost);
     tell_to_stop(reason);
     const Hub::Until until = Hub::within(deadlines_.stop_s);
-    const auto handler = [this](Peer& peer, const wire::Frame& frame) { hear_the_rest(peer, frame); };
+    const auto handler = [this, &until](Peer& peer, const wire::Frame& frame) {
+      // Who never stops talking does not keep us from coming to an end.
+      if (transport::Clock::now() >= until()) throw PeerError(peer.name(), "goes on talking after Stop");
+      hear_the_rest(peer, frame);
+    };
     while (!finished() && transport::Clock::now() < until()) {
       try {
         static_cast<void>(hub_.run(

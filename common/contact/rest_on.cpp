@@ -18,7 +18,21 @@ void rest_on(const surface::Polyline& surface, std::span<const double> radii, st
   GS_ASSERT(radii.size() == 1 || radii.size() == centres.size(), "as many radii as discs");
   const auto radius = [&](std::size_t i) { return radii[radii.size() == 1 ? 0 : i]; };
   double top = -std::numeric_limits<double>::infinity();
-  for (const Vec2& node : surface.nodes()) top = std::max(top, node[1]);
+  double bottom = std::numeric_limits<double>::infinity();
+  double left_end = std::numeric_limits<double>::infinity();
+  double right_end = -std::numeric_limits<double>::infinity();
+  for (const Vec2& node : surface.nodes()) {
+    top = std::max(top, node[1]);
+    bottom = std::min(bottom, node[1]);
+    left_end = std::min(left_end, node[0]);
+    right_end = std::max(right_end, node[0]);
+  }
+  bool any_above = false;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    any_above = any_above || (centres[i][0] >= left_end - radius(i) && centres[i][0] <= right_end + radius(i));
+  }
+  const char* const beside = "impactor.slug: nothing of it stands above the structure's surface";
+  if (!any_above) throw InputError(beside);
   std::size_t lowest = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     if (centres[i][1] - centres[lowest][1] < radius(i) - radius(lowest)) lowest = i;
@@ -34,6 +48,8 @@ void rest_on(const surface::Polyline& surface, std::span<const double> radii, st
     }
     return gap;
   };
+  // Once all are below the whole surface, they have passed beside it and would sink for ever.
+  const auto all_below = [&] { return std::ranges::all_of(centres, [&](const Vec2& p) { return p[1] < bottom; }); };
   // Every disc may sink by the smallest gap without touching, since a distance changes no faster than the disc moves.
   // Repeated, this converges to first contact from above. A billionth of a diameter is left, so that round-off cannot
   // make an overlap of it.
@@ -42,10 +58,10 @@ void rest_on(const surface::Polyline& surface, std::span<const double> radii, st
   for (int i = 0; i < many; ++i) {
     const double sink = smallest_gap() - left;
     if (std::abs(sink) <= 0.5 * left) return;
-    if (!std::isfinite(sink)) break;
+    if (!std::isfinite(sink) || (sink > 0.0 && all_below())) break;
     for (Vec2& p : centres) p[1] -= sink;
   }
-  throw InputError("impactor.slug: nothing of it stands above the structure's surface");
+  throw InputError(beside);
 }
 
 }  // namespace grainstep::contact

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/assert.hpp"
+#include "base/error.hpp"
 
 namespace grainstep::load {
 namespace {
@@ -112,6 +114,20 @@ auto of_history(const scene::Pressure& pressure, Action action) {
 }
 
 }  // namespace
+
+void require_history(const scene::Pressure& pressure) {
+  if (pressure.history_case() == scene::Pressure::HISTORY_NOT_SET)
+    throw InputError("impactor.pressure: needs a history: one of rectangular, exponential, tabulated");
+  const scene::TabulatedPulse& table = pressure.tabulated();
+  if (table.time_size() != table.pressure_size()) {
+    throw InputError("impactor.pressure.tabulated.pressure: " + std::to_string(table.pressure_size()) +
+                     " pressures for " + std::to_string(table.time_size()) + " times; expected one for each");
+  }
+  for (int k = 0; k + 1 < table.time_size(); ++k) {
+    if (table.time(k) < table.time(k + 1)) continue;
+    throw InputError("impactor.pressure.tabulated.time." + std::to_string(k + 1) + ": times must increase strictly");
+  }
+}
 
 double impulse(const scene::Pressure& pressure, double from, double to) {
   return of_history(pressure, [&](const auto& history) { return impulse(history, from, to); });

@@ -5,6 +5,11 @@
 
 namespace grainstep::load {
 
+/// Throws InputError where a pressure has no history, or a table's times and pressures do not belong together. A loader
+/// has seen to that; what comes over the wire has met none.
+void require_history(const scene::Pressure& pressure);
+
+/// @pre require_history(), here and below.
 /// Integral of the pressure from one time to a later one, Pa s. Exact but for round-off, whatever the interval: what
 /// is handed over in steps adds up to the history's own impulse.
 [[nodiscard]] double impulse(const scene::Pressure& pressure, double from, double to);

@@ -5,11 +5,20 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/processor_time.hpp"
+#include "participant/check_start.hpp"
+#include "participant/check_surface.hpp"
 
 namespace grainstep::participant {
 namespace {
 
 std::string seconds_text(double seconds) { return rounded_text(seconds) + " s"; }
+
+/// An impactor that is asked for a preview may be asked without a surface (proto/README.md).
+std::optional<std::string> problem_of_surface(const wire::Setup& setup) {
+  const wire::Surface& surface = setup.impactor().surface();
+  if (setup.preview() && surface.position().empty() && surface.facet().empty()) return std::nullopt;
+  return surface_problem(surface, setup.dimension());
+}
 
 double seconds_of(transport::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -25,6 +34,7 @@ bool Conversation::introduce(wire::Hello hello, wire::Role role, wire::Setup& se
     return false;
   }
   messages_.take(*frame, setup);
+  preview_ = setup.preview();
   if (setup.protocol() != wire::PROTOCOL_VERSION) {
     refuse("Setup names protocol version " + std::to_string(setup.protocol()) + ", this program speaks " +
            std::to_string(wire::PROTOCOL_VERSION));
@@ -32,6 +42,9 @@ bool Conversation::introduce(wire::Hello hello, wire::Role role, wire::Setup& se
   const auto part = role == wire::STRUCTURE ? wire::Setup::kStructure : wire::Setup::kImpactor;
   if (setup.part_case() != part) {
     refuse("Setup does not hold the part of the scene for this participant, role " + wire::Role_Name(role));
+  }
+  if (role == wire::IMPACTOR) {
+    if (const auto found = problem_of_surface(setup)) refuse("Setup.impactor.surface" + *found);
   }
   return true;
 }
@@ -46,11 +59,9 @@ bool Conversation::wait_for_start(wire::Start& start) {
   if (frame == nullptr) {
     return false;
   }
+  if (preview_) messages_.refuse("Stop after the Ready of a preview, for which no model was built", *frame);
   messages_.take(*frame, start);
-  if (start.first_window() > start.windows()) {
-    refuse("Start begins at window " + std::to_string(start.first_window()) + " of a run of " +
-           std::to_string(start.windows()));
-  }
+  if (const auto found = start_problem(start)) refuse(*found);
   started_ = transport::Clock::now();
   processor_at_start_ = processor_seconds();
   return true;

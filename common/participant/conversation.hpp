@@ -58,6 +58,7 @@ class Conversation {
   double processor_at_start_ = 0.0;
   transport::Clock::duration waited_{};
   std::uint64_t steps_ = 0;  // as last reported by the backend
+  bool preview_ = false;
   bool stopped_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "participant/serve.hpp"
 
+#include <cmath>
 #include <iostream>
 #include <new>
 
@@ -16,6 +17,16 @@ void check_length(const Conversation& talk, const char* what, int found, int exp
   if (found != expected) {
     talk.refuse(std::string(what) + " holds " + std::to_string(found) + " values, expected " +
                 std::to_string(expected) + " (surface nodes times dimension)");
+  }
+}
+
+/// The orchestrator forwards before it looks. What is no number would become a place, and then an index.
+void check_finite(const char* what, std::uint64_t window, const google::protobuf::RepeatedField<double>& values) {
+  for (int i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    throw NumericalError(std::string(what) + " of window " + std::to_string(window) + ": value " + std::to_string(i) +
+                         " is " + std::to_string(values[i]) +
+                         ". The other side's computation has become unstable: try smaller steps.");
   }
 }
 
@@ -76,6 +87,8 @@ class Link final : public ImpactorLink {
     }
     check_length(talk_, "Kinematics.position", kinematics_.position_size(), values_);
     check_length(talk_, "Kinematics.velocity", kinematics_.velocity_size(), values_);
+    check_finite("Kinematics.position", window, kinematics_.position());
+    check_finite("Kinematics.velocity", window, kinematics_.velocity());
     return &kinematics_;
   }
 

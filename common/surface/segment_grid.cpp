@@ -21,14 +21,40 @@ void SegmentGrid::fit(const Polyline& surface) {
   const double height = high_[1] - low_[1];
   const double size = std::max(reach_, std::sqrt(width * height / most_cells));
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    cells_[axis] = std::max<std::size_t>(1, static_cast<std::size_t>((high_[axis] - low_[axis]) / size));
-    cell_size_[axis] = (high_[axis] - low_[axis]) / static_cast<double>(cells_[axis]);
+    // A surface that is long one way and thin the other has no more of them either, nor one whose nodes are anywhere.
+    cells_[axis] = static_cast<std::size_t>(std::max(1.0, std::min(most_cells, (high_[axis] - low_[axis]) / size)));
+    divide(axis);
+  }
+}
+
+void SegmentGrid::divide(std::size_t axis) {
+  cell_size_[axis] = (high_[axis] - low_[axis]) / static_cast<double>(cells_[axis]);
+}
+
+// Segments that all reach across the whole surface would be in all cells: as many entries as their number squared. Then
+// larger cells are no worse, down to a single one that holds every segment once.
+void SegmentGrid::coarsen_for(const Polyline& surface) {
+  const std::uint64_t most = 64 * (surface.segment_count() + 64);
+  const auto entries = [&] {
+    std::uint64_t sum = 0;
+    for (std::uint32_t i = 0; i < surface.segment_count() && sum <= most; ++i) {
+      const CellRange range = cells_of(surface, i);
+      sum += std::uint64_t{range.row_end - range.row_begin} * (range.column_end - range.column_begin);
+    }
+    return sum;
+  };
+  while (cells_[0] * cells_[1] > 1 && entries() > most) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      cells_[axis] = std::max<std::size_t>(1, cells_[axis] / 2);
+      divide(axis);
+    }
   }
 }
 
 std::size_t SegmentGrid::index(double x, std::size_t axis) const {
+  const double last = static_cast<double>(cells_[axis] - 1);
   const double cell = std::max(0.0, (x - low_[axis]) / cell_size_[axis]);
-  return std::min(static_cast<std::size_t>(cell), cells_[axis] - 1);
+  return static_cast<std::size_t>(std::min(last, cell));
 }
 
 SegmentGrid::CellRange SegmentGrid::cells_of(const Polyline& surface, std::uint32_t segment) const {
@@ -42,6 +68,7 @@ SegmentGrid::CellRange SegmentGrid::cells_of(const Polyline& surface, std::uint3
 void SegmentGrid::rebuild(const Polyline& surface, double reach) {
   reach_ = reach;
   fit(surface);
+  coarsen_for(surface);
   const auto for_each_cell = [&](std::uint32_t segment, auto&& visit) {
     const CellRange range = cells_of(surface, segment);
     for (std::size_t row = range.row_begin; row < range.row_end; ++row) {

@@ -28,6 +28,8 @@ class SegmentGrid {
     std::size_t column_begin, column_end, row_begin, row_end;
   };
   void fit(const Polyline& surface);
+  void divide(std::size_t axis);
+  void coarsen_for(const Polyline& surface);
   [[nodiscard]] CellRange cells_of(const Polyline& surface, std::uint32_t segment) const;
   [[nodiscard]] std::size_t index(double x, std::size_t axis) const;
 

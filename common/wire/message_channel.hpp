@@ -45,6 +45,8 @@ class MessageChannel {
       refuse(kind_name(kind_of<Message>) + " of window " + std::to_string(window), frame);
     }
     take(frame, message);
+    // A field that comes twice counts as what it is last; window_of() read it where it is first.
+    if (message.window() != window) refuse_damaged(frame);
   }
 
   /// Throws the PeerError for a message that does not belong here.

@@ -97,7 +97,7 @@ void FoamImpactor::check_block() {
   if (!(stable_step_ >= guards_.element_quality() * undeformed_step_))
     check_slivers(*body_, undeformed_step_, guards_.element_quality(), progress());
   const double limit = kStepLimit * stable_step_in_touch(*model_, *body_, stable_step_);
-  steps_needed_ = std::max(steps_needed_, static_cast<std::uint32_t>(std::ceil(window_length_ / limit)));
+  steps_needed_ = std::max(steps_needed_, steps_needed(window_length_, limit, progress()));
   last_good_time_ = progress().time;
 }
 

@@ -60,7 +60,11 @@ Mesh make_block(const scene::Impactor& impactor, bool half) {
   const scene::Slug& slug = impactor.slug();
   const int rows = static_cast<int>(impactor.foam().elements());
   const double size = slug.height() / rows;
-  const int half_columns = static_cast<int>(std::max(1.0, std::round(slug.half_width() / size)));
+  const double wanted = std::max(1.0, std::round(slug.half_width() / size));
+  require_fits(wanted * rows * (half ? 1.0 : 2.0),
+               fmt::format("impactor.foam.elements: {} over the height gives {:g} x {} elements of {:g} m", rows,
+                           wanted, rows, size));
+  const int half_columns = static_cast<int>(wanted);
   Mesh mesh{};
   mesh.symmetric = half;
   mesh.element_size = size;

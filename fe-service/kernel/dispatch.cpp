@@ -7,7 +7,7 @@
 namespace grainstep::fe {
 
 // Defined by the copies of kernel.cpp.
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(GRAINSTEP_ONE_KERNEL)
 extern const Kernels kernels_x86_64;
 extern const Kernels kernels_x86_64_v3;
 extern const Kernels kernels_x86_64_v4;
@@ -19,7 +19,7 @@ namespace {
 
 std::vector<const Kernels*> detect() {
   std::vector<const Kernels*> found;
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(GRAINSTEP_ONE_KERNEL)
   if (x86_level() >= X86Level::v4) found.push_back(&kernels_x86_64_v4);
   if (x86_level() >= X86Level::v3) found.push_back(&kernels_x86_64_v3);
   found.push_back(&kernels_x86_64);

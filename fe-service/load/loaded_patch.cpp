@@ -11,8 +11,9 @@ LoadedPatch::LoadedPatch(const wire::Surface& surface, const scene::Pressure& pr
   for (int s = 0; s + 1 < surface.facet_size(); s += 2) {
     const std::uint32_t nodes[] = {surface.facet(s), surface.facet(s + 1)};
     const auto at = [&](int end) {
+      if (2 * std::uint64_t{nodes[end]} + 1 >= static_cast<std::uint64_t>(surface.position_size()))
+        throw InputError("surface: a segment names a node without a position");
       const int i = static_cast<int>(2 * nodes[end]);
-      if (i + 1 >= surface.position_size()) throw InputError("surface: a segment names a node without a position");
       return Vec2{surface.position(i), surface.position(i + 1)};
     };
     const Vec2 along = at(1) - at(0);  // the outward normal is this, turned by +90 degrees: (-y, x)

@@ -23,6 +23,7 @@ wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
   const scene::Impactor& impactor = setup.impactor().impactor();
   const wire::Surface& surface = setup.impactor().surface();
   if (impactor.type() == scene::Impactor::TYPE_PRESSURE) {
+    load::require_history(impactor.pressure());
     pressure_ = impactor.pressure();
     if (!setup.preview()) patch_.emplace(surface, impactor.pressure());
   } else if (impactor.type() != scene::Impactor::TYPE_NONE) {

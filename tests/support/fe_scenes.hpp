@@ -32,8 +32,7 @@ inline scene::Structure beam(scene::Layer::Material material, double half_span, 
 
 inline scene::Layer core(double thickness, double density, double viscosity) {
   scene::Layer layer;
-  layer.set_material(scene::Layer::MATERIAL_CORE);
-  layer.set_thickness(thickness);
+  layer = steel(scene::Layer::MATERIAL_CORE, thickness);  // of its own it has only thickness, density and viscosity
   layer.set_density(density);
   layer.set_viscosity(viscosity);
   return layer;
@@ -49,6 +48,16 @@ inline void set_core(scene::Structure& structure, double normalised_strength) {
   keys.set_shock_width(0.1);
 }
 
+/// The defaults of the scene's keys.
+inline scene::Guards usual_guards() {
+  scene::Guards guards;
+  guards.set_energy_drift(0.03);
+  guards.set_momentum_error(1e-9);
+  guards.set_overlap(0.5);
+  guards.set_element_quality(0.01);
+  return guards;
+}
+
 inline wire::Setup setup_of(const scene::Structure& structure, double depth = 1e-3) {
   wire::Setup setup;
   setup.set_protocol(wire::PROTOCOL_VERSION);
@@ -57,7 +66,7 @@ inline wire::Setup setup_of(const scene::Structure& structure, double depth = 1e
   setup.set_depth(depth);
   setup.set_mirror(structure.extent() == scene::Structure::EXTENT_HALF);
   *setup.mutable_structure()->mutable_structure() = structure;
-  setup.mutable_structure()->mutable_guards()->set_element_quality(0.01);
+  *setup.mutable_structure()->mutable_guards() = usual_guards();
   return setup;
 }
 

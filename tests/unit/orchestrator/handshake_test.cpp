@@ -212,6 +212,17 @@ INSTANTIATE_TEST_SUITE_P(
         WrongReady{"ledger", [](wire::Ready& r) { r.clear_ledger(); }, "Ready.ledger is not said"}),
     [](const auto& one) { return std::string(one.param.name); });
 
+// A ring's area is what pressures are divided by.
+TEST_F(Handshake, RefusesRingsOnTheAxisOrBeyondIt) {
+  scene_.set_symmetry(scene::SYMMETRY_AXISYMMETRIC);
+  for (const double radius : {0.0, -2.0}) {
+    ready_structure_.mutable_surface()->set_position(0, 0.0);
+    ready_structure_.mutable_surface()->set_position(1, 1.0);
+    ready_structure_.mutable_surface()->set_position(2, radius);
+    EXPECT_THAT(preparation_of_structure(), HasSubstr("structure: Ready.surface: facet 0 reaches from r = 0 m to"));
+  }
+}
+
 TEST_F(Handshake, TheSetupHoldsTheSceneAndTheStructuresAnswer) {
   scene_.set_symmetry(scene::SYMMETRY_PLANE_STRAIN);
   scene_.mutable_structure()->set_extent(scene::Structure::EXTENT_HALF);

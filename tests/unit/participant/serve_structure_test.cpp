@@ -58,6 +58,8 @@ class ServeStructure : public ::testing::Test {
     wire::Start start;
     start.set_window(1e-7);
     start.set_windows(3);
+    start.set_impactor_steps(1);
+    start.set_structure_steps(1);
     start.set_report_every(2);
     start.set_snapshot_every(3);
     return start;
@@ -228,6 +230,21 @@ TEST_F(ServeStructure, while_it_runs_silence_is_borne_for_the_deadline_of_data) 
   talk.tell(start());
   EXPECT_EQ(talk.exit_code(), 4);
   EXPECT_EQ(talk.error_text(), "error: orchestrator: expected Forces of window 0, heard nothing for 0.01 s\n");
+}
+
+// Nothing was built that could be started.
+TEST_F(ServeStructure, a_start_after_a_preview_is_refused) {
+  auto& talk = orchestrator();
+  talk.hear<wire::Hello>();
+  auto preview = setup();
+  preview.set_preview(true);
+  talk.tell(preview);
+  talk.hear<wire::Ready>();
+  talk.tell(start());
+  EXPECT_EQ(
+      talk.hear<wire::Error>().text(),
+      "orchestrator: message 2: expected Stop after the Ready of a preview, for which no model was built, got Start");
+  EXPECT_EQ(talk.exit_code(), 4);
 }
 
 }  // namespace

@@ -91,5 +91,25 @@ TEST(MessageChannel, notices_every_fault_of_the_way) {
   EXPECT_NE(noticed({Kind::flip_bit, 2, std::size_t{8} * 30}).find("left: message 2: checksum"), std::string::npos);
 }
 
+// Protobuf takes the last of a field's values, a look at the first bytes the first: they must not be used as two
+// windows.
+TEST(MessageChannel, a_window_that_is_named_twice_is_refused) {
+  TwoEnds ends;
+  Forces first;
+  first.set_window(5);
+  Forces second;
+  second.set_window(1000000);
+  const std::string body = first.SerializeAsString() + second.SerializeAsString();
+  const std::string payload = std::string("\x2a") + static_cast<char>(body.size()) + body;  // field 5, a length
+  Encoder encoder;
+  ends.channels.first->send(encoder.forward(std::as_bytes(std::span(payload))));
+  const Frame* frame = ends.right.receive(grainstep::testing::soon());
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(window_of(*frame), 5U);
+  Forces into;
+  EXPECT_EQ(peer_error([&] { ends.right.take(*frame, into, 5); }),
+            "left: message 1: the bytes of this Forces are not a valid message of its kind");
+}
+
 }  // namespace
 }  // namespace grainstep::wire
