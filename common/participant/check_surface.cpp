@@ -10,14 +10,14 @@ using Values = google::protobuf::RepeatedField<double>;
 
 Problem length_problem(const char* what, const Values& values, int expected) {
   if (values.size() == expected) return std::nullopt;
-  return "." + std::string(what) + " holds " + std::to_string(values.size()) + " numbers, expected " +
+  return std::string(".").append(what) + " holds " + std::to_string(values.size()) + " numbers, expected " +
          std::to_string(expected) + ": as many as the other, a multiple of the dimension";
 }
 
 Problem number_problem(const char* what, const Values& values) {
   for (int i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
-    return "." + std::string(what) + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) +
+    return std::string(".").append(what) + "[" + std::to_string(i) + "] = " + std::to_string(values[i]) +
            "; it must be a number";
   }
   return std::nullopt;

@@ -10,6 +10,19 @@
 namespace grainstep::dem::native {
 namespace {
 
+// Over what LAMMPS takes for the same particles and steps: `bench_dem_step`, 0.44 (spreading) to 0.57 (compaction).
+constexpr double time_over_lammps = 0.5;
+// Largest resident size of the process in runs of 2 to 31 thousand particles, with a snapshot on its way.
+constexpr std::uint64_t bytes_of_program = 12'000'000;
+constexpr std::uint64_t bytes_per_disc = 800;
+constexpr std::uint64_t bytes_per_sphere = 1'600;
+
+void make_own(wire::Ready& ready, bool spheres) {
+  ready.set_seconds_per_step(time_over_lammps * ready.seconds_per_step());
+  ready.set_memory(bytes_of_program + ready.size() * (spheres ? bytes_per_sphere : bytes_per_disc));
+  ready.set_rank_memory(bytes_of_program);
+}
+
 void require_drivable(const wire::Start& start) {
   if (start.first_window() != 0) {
     throw InputError("grainstep-grains cannot continue a run: Start.first_window must be 0");
@@ -38,6 +51,7 @@ class Impactor final : public participant::ImpactorBackend {
     }
     wire::Ready ready =
         preview(impactor, setup.symmetry(), setup.depth(), setup.mirror()).ready(setup.impactor().surface());
+    make_own(ready, setup.symmetry() == scene::SYMMETRY_AXISYMMETRIC);
     ready.set_scene_hash(setup.scene_hash());
     if (setup.preview()) return ready;
     const SlugModel model = slug_model_of(setup);
