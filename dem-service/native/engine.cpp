@@ -21,8 +21,9 @@ using surface::Vec3;
 constexpr double slow_allowance = 0.35;
 constexpr double fast_allowance = 1.0;
 constexpr double inner_share = 0.25;  // of it, until the inner list is
-// Sleepers are woken when something is so near, and all of them at once that are no further than this.
-constexpr double room_to_wake = 0.25;
+// Sleepers are woken when something is so near, and all of them at once that are no further than this. In one step a
+// surface moves by half a diameter at most, or the run ends (StepDriver).
+constexpr double room_to_wake = 0.75;
 constexpr double room_awake = 3.0;
 
 PairLaw pair_law(const ContactLaw& law) {
@@ -53,7 +54,7 @@ class Run {
         diameter_(model.diameter),
         law_(calibrated_pair_law(model, dt_)),
         flight_(model, particles),
-        grains_(model, particles),
+        grains_(model, particles, flight_.identities()),
         allowance_{slow_allowance * model.diameter, fast_allowance * model.diameter},
         inner_allowance_{inner_share * allowance_.slow, inner_share * allowance_.fast},
         refreshable_{allowance_.slow - inner_allowance_.slow, allowance_.fast - inner_allowance_.fast},

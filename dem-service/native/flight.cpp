@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace grainstep::dem::native {
 namespace {
@@ -28,13 +29,21 @@ double radius_of(const SlugModel& model, const PlacedParticle& particle) {
 }  // namespace
 
 Flight::Flight(const SlugModel& model, std::vector<PlacedParticle>& particles)
-    : velocity_(particles.front().velocity), speed_(norm(velocity_)) {
+    : identity_(particles.size()), velocity_(particles.front().velocity), speed_(norm(velocity_)) {
   const bool sleep = speed_ > 0.0 && fly_alike(particles) && meet_no_plane(model, velocity_);
+  std::iota(identity_.begin(), identity_.end(), 1);
   if (sleep) {
     ahead_ = velocity_ * (1.0 / speed_);
-    std::stable_sort(particles.begin(), particles.end(), [this](const PlacedParticle& a, const PlacedParticle& b) {
-      return dot(a.position, ahead_) > dot(b.position, ahead_);
+    const auto at = [&](std::int32_t identity) -> const PlacedParticle& {
+      return particles[static_cast<std::size_t>(identity) - 1];
+    };
+    std::sort(identity_.begin(), identity_.end(), [&](std::int32_t a, std::int32_t b) {
+      const double lead = dot(at(a).position, ahead_) - dot(at(b).position, ahead_);
+      return lead > 0.0 || (lead == 0.0 && a < b);
     });
+    std::vector<PlacedParticle> sorted(particles.size());
+    std::transform(identity_.begin(), identity_.end(), sorted.begin(), at);
+    particles = std::move(sorted);
   }
   for (const PlacedParticle& particle : particles) {
     start_.push_back(particle.position);

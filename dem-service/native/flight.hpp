@@ -18,6 +18,9 @@ class Flight {
   /// they could meet on their way does not come with their front: walls that they fly towards.
   Flight(const SlugModel& model, std::vector<PlacedParticle>& particles);
 
+  /// Of each particle in its new place: how many stood before it at first, and one.
+  [[nodiscard]] const std::vector<std::int32_t>& identities() const { return identity_; }
+
   [[nodiscard]] std::int32_t awake() const { return awake_; }
   [[nodiscard]] bool all_awake() const { return awake_ == static_cast<std::int32_t>(start_.size()); }
   [[nodiscard]] const surface::Vec3& velocity() const { return velocity_; }
@@ -39,8 +42,9 @@ class Flight {
 
  private:
   std::vector<surface::Vec3> start_;  ///< m
-  std::vector<double> behind_;        ///< m, of a grain's leading point
-  std::vector<double> lowest_;        ///< m, x2 of the lowest point of this grain and of all behind it
+  std::vector<std::int32_t> identity_;
+  std::vector<double> behind_;  ///< m, of a grain's leading point
+  std::vector<double> lowest_;  ///< m, x2 of the lowest point of this grain and of all behind it
   surface::Vec3 velocity_;
   surface::Vec3 ahead_;  ///< unit vector
   double speed_ = 0.0;

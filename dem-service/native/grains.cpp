@@ -18,10 +18,12 @@ void rearrange(std::vector<T>& values, const std::vector<std::int32_t>& order) {
 }  // namespace
 
 template <int D>
-Grains<D>::Grains(const SlugModel& model, const std::vector<PlacedParticle>& particles)
+Grains<D>::Grains(const SlugModel& model, const std::vector<PlacedParticle>& particles,
+                  const std::vector<std::int32_t>& identities)
     : states_(particles.size()),
       forces_(particles.size() + 1),
       places_(particles.size() * place_size<D>),
+      identity_(identities),
       springs_(particles.size()),
       mixed_(!model.sizes.equal()) {
   for (std::size_t n = 0; n < particles.size(); ++n) {
@@ -34,7 +36,6 @@ Grains<D>::Grains(const SlugModel& model, const std::vector<PlacedParticle>& par
     per_mass_.push_back(1.0 / mass);
     per_inertia_.push_back(1.0 / (model.gyration() * mass * radius * radius));
     float_radius_.push_back(static_cast<float>(radius));
-    identity_.push_back(static_cast<std::int32_t>(n + 1));
     largest_radius_ = std::max(largest_radius_, radius);
     const auto i = static_cast<std::ptrdiff_t>(n);
     for (std::size_t c = 0; c < D; ++c) {

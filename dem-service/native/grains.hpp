@@ -17,8 +17,9 @@ class Grains {
  public:
   using R = Row<D>;
 
-  /// In the order given; identities are 1, 2, ... in that order.
-  Grains(const SlugModel& model, const std::vector<PlacedParticle>& particles);
+  /// In the order given.
+  Grains(const SlugModel& model, const std::vector<PlacedParticle>& particles,
+         const std::vector<std::int32_t>& identities);
 
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(radius_.size()); }
 

@@ -1,11 +1,13 @@
 /// @file in-process SCENE OUT [PATH=VALUE...]: the same run as `grainstep run`, but both participants are threads of
 /// this process and the messages never leave it. What processes and sockets do to a result is what differs from this.
 #include <cstdio>
+#include <memory>
 #include <sstream>
 #include <thread>
 
 #include "base/error.hpp"
 #include "dem-service/impactor.hpp"
+#include "dem-service/native/impactor.hpp"
 #include "fe-service/impactor.hpp"
 #include "fe-service/structure.hpp"
 #include "orchestrator/conduct.hpp"
@@ -19,6 +21,15 @@ namespace {
 
 using grainstep::transport::Channel;
 
+/// That of the program which the scene names.
+std::unique_ptr<grainstep::participant::ImpactorBackend> impactor_of(const grainstep::scene::Scene& scene) {
+  using namespace grainstep;
+  const std::string program = scene::program_of(scene, wire::IMPACTOR).command.front();
+  if (program == "grainstep-dem") return dem::make_impactor({});
+  if (program == "grainstep-grains") return dem::native::make_impactor();
+  return std::make_unique<fe::Impactor>();
+}
+
 int run(const grainstep::orchestrator::RunOptions& options) {
   using namespace grainstep;
   const auto preparation =
@@ -28,11 +39,7 @@ int run(const grainstep::orchestrator::RunOptions& options) {
   auto [impactor, impactor_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "impactor"});
   auto [structure, structure_end] = transport::make_in_process_pair({.first = "orchestrator", .second = "structure"});
   std::thread particles([&preparation, end = std::move(impactor_end)] {
-    if (!scene::program_of(preparation.scene, wire::IMPACTOR).ranks) {
-      fe::Impactor backend;
-      return static_cast<void>(participant::serve_impactor(*end, backend));
-    }
-    const auto backend = dem::make_impactor({});
+    const std::unique_ptr<participant::ImpactorBackend> backend = impactor_of(preparation.scene);
     static_cast<void>(participant::serve_impactor(*end, *backend));
   });
   std::thread elements([end = std::move(structure_end)] {

@@ -3,15 +3,16 @@ import unittest
 
 import h5py
 import numpy as np
-from runs import Run, datasets
+from runs import SOURCE, Run, datasets
 
 NATIVE = ("--set", "impactor.engine=native")
+PLATE = SOURCE / "configs/small/plate-quick.yaml"
 SHORT = ("--set", "time.end=0.1")
 
 
 class Native(unittest.TestCase):
-    def ended(self, *options):
-        run = Run(*options)
+    def ended(self, *options, **more):
+        run = Run(*options, **more)
         self.addCleanup(run.__exit__)
         run.end()
         self.assertEqual(run.code, 0, run.stderr)
@@ -27,6 +28,14 @@ class Native(unittest.TestCase):
             self.assertAlmostEqual(native[key] / lammps[key], 1.0, delta=0.02, msg=key)
         self.assertLess(native["momentum_error"], 1e-12)
         self.assertLess(native["energy_drift"], 1.05 * lammps["energy_drift"])
+
+    def test_spheres_as_well(self):
+        settings = ("--set", "impactor.slug.particle.diameter=5 mm", "--set", "structure.mesh.refinement=2")
+        lammps, native = self.ended(*settings, scene=PLATE).summary(), self.ended(*settings, *NATIVE, scene=PLATE).summary()
+        self.assertEqual(native["particles"], lammps["particles"])
+        for key in ("peak_deflection", "transmitted_impulse"):
+            self.assertAlmostEqual(native[key] / lammps[key], 1.0, delta=0.05, msg=key)
+        self.assertLess(native["momentum_error"], 1e-12)
 
     def test_one_run_gives_the_bits_of_another(self):
         one, other = (datasets(self.ended(*SHORT, *NATIVE).out / "results.h5") for _ in range(2))

@@ -28,6 +28,7 @@ TEST(NativeFlight, TheHeadIsFirst) {
   EXPECT_EQ(flight.awake(), 0);
   EXPECT_EQ(particles[0].position[1], 1e-3);
   EXPECT_EQ(particles[2].position[1], 9e-3);
+  EXPECT_EQ(flight.identities(), (std::vector<std::int32_t>{2, 3, 1}));
 }
 
 TEST(NativeFlight, WhoComesNearTheSurfaceWakes) {
