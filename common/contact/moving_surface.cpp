@@ -36,13 +36,16 @@ MovingSurface::MovingSurface(const wire::Surface& surface)
       from_(now_.nodes().begin(), now_.nodes().end()),
       to_(from_),
       velocity_(in_pairs(surface.velocity().data(), from_.size())),
-      remembered_(from_) {}
+      remembered_(from_) {
+  note_fastest();
+}
 
 void MovingSurface::aim(const double* position, const double* velocity) {
   for (std::size_t i = 0; i < to_.size(); ++i) {
     to_[i] = {{position[2 * i], position[2 * i + 1]}};
     velocity_[i] = {{velocity[2 * i], velocity[2 * i + 1]}};
   }
+  note_fastest();
 }
 
 void MovingSurface::move_to(double fraction) {
@@ -54,10 +57,10 @@ void MovingSurface::move_to(double fraction) {
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = from_[i] + fraction * (to_[i] - from_[i]);
 }
 
-double MovingSurface::fastest() const {
+void MovingSurface::note_fastest() {
   double largest = 0.0;
   for (const Vec2& v : velocity_) largest = std::max(largest, dot(v, v));
-  return std::sqrt(largest);
+  fastest_ = std::sqrt(largest);
 }
 
 double MovingSurface::wandered() const {

@@ -28,15 +28,18 @@ class MovingSurface {
   [[nodiscard]] const std::vector<surface::Vec2>& velocity() const { return velocity_; }
 
   /// Speed (m/s) of the fastest node in the window in progress.
-  [[nodiscard]] double fastest() const;
+  [[nodiscard]] double fastest() const { return fastest_; }
 
   /// Largest distance (m) of a node, now and at the window's end, from where remember() was last called.
   [[nodiscard]] double wandered() const;
   void remember();
 
  private:
+  void note_fastest();
+
   surface::Polyline now_;
   std::vector<surface::Vec2> from_, to_, velocity_, remembered_;
+  double fastest_ = 0.0;
 };
 
 }  // namespace grainstep::contact

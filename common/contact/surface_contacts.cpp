@@ -58,7 +58,7 @@ void SurfaceContacts::rebuild(const ParticleArrays& particles, MovingSurface& su
     const auto first = static_cast<std::uint32_t>(near_.size());
     grid_.near(surface.now(), p, near_);
     const auto last = static_cast<std::uint32_t>(near_.size());
-    if (last > first) candidates_.push_back({i, first, last});
+    if (last > first) candidates_.push_back({i, first, last, 0.0});
   }
 }
 
@@ -68,8 +68,11 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
   contacts_.clear();
   footing_.clear();
   stored_normal_ = stored_tangential_ = 0.0;
-  for (const Candidate& candidate : candidates_) {
+  for (Candidate& candidate : candidates_) {
     const int i = candidate.particle;
+    const double* v = particles.velocity[i];
+    candidate.clear -= (std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]) + surface.fastest()) * dt;
+    if (candidate.clear > 0.0) continue;
     const std::span<const std::uint32_t> segments(near_.data() + candidate.first, candidate.last - candidate.first);
     const Vec2 centre = place_of(settings_.shape, particles.position[i]);
     const ClosestPoint at = surface.now().closest(centre, segments);
@@ -80,8 +83,11 @@ std::optional<std::string> SurfaceContacts::evaluate(const ParticleArrays& parti
       touch(particles, surface, i, foot, dt);
       const Contact& contact = contacts_.back();
       footing_.give(surface, foot, -(settings_.whole * weight) * contact.plane.in_plane(contact.total), nodal);
+      candidate.clear = 0.0;
     } else {
       particles.spring[i] = {};
+      // A distance shrinks no faster than the two come together; a thousandth is left for round-off.
+      candidate.clear = 0.999 * (at.distance - particles.radius[i]);
     }
   }
   return failure;

@@ -80,6 +80,7 @@ class SurfaceContacts {
   struct Candidate {
     int particle;
     std::uint32_t first, last;  ///< range in near_
+    double clear = 0.0;         ///< m that particle and surface must come nearer before they can touch
   };
   struct Contact {
     int particle;
