@@ -89,7 +89,8 @@ void Neighbours<D>::sort(Grains<D>& grains, std::int32_t active, const std::vect
 
 template <int D>
 std::int32_t Neighbours<D>::begin_of(const std::vector<std::int32_t>& begin, int x, int y, int z) const {
-  return begin[static_cast<std::size_t>((z * cells_.number[1] + y) * cells_.number[0] + x)];
+  const std::ptrdiff_t row = std::ptrdiff_t{z} * cells_.number[1] + y;
+  return begin[static_cast<std::size_t>(row * cells_.number[0] + x)];
 }
 
 template <int D>

@@ -10,7 +10,7 @@
 namespace grainstep::dem::native {
 
 /// Four doubles that are loaded, added and stored as one.
-typedef double Quad __attribute__((vector_size(32), may_alias));
+using Quad [[gnu::vector_size(32), gnu::may_alias]] = double;
 
 template <int D>
 struct Row;

@@ -7,8 +7,6 @@
 namespace grainstep::dem::native {
 namespace {
 
-typedef std::int64_t Lanes __attribute__((vector_size(32)));
-
 [[gnu::always_inline]] inline Quad larger(Quad a, Quad b) { return a > b ? a : b; }
 [[gnu::always_inline]] inline Quad& quad_at(double* at) { return *reinterpret_cast<Quad*>(at); }
 
@@ -28,7 +26,7 @@ double move_discs(const Motion& m) {
     const Quad by{kick * m.per_inertia[i * m.each], by_mass, by_mass, 0.0};
     const Quad velocity = quad_at(row + 4) + quad_at(force) * by;
     quad_at(row + 4) = velocity;
-    const Quad position = quad_at(row) + __builtin_shuffle(velocity, Lanes{1, 2, 3, 3}) * drift;
+    const Quad position = quad_at(row) + __builtin_shufflevector(velocity, velocity, 1, 2, 3, 3) * drift;
     quad_at(row) = position;
     quad_at(force) = Quad{};
     const Quad speed = velocity - frame;

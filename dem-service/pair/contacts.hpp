@@ -8,6 +8,7 @@
 /// evaluate() in every step.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -70,7 +71,7 @@ class PairContacts {
   /// Contacts of one step. Behind the last stands one with the highest number and no history.
   struct Contacts {
     std::vector<std::uint32_t> pair;
-    std::vector<double> value[most_history_values];
+    std::array<std::vector<double>, most_history_values> value;
     std::size_t size = 0;
     void reserve(std::size_t contacts, int values);
     void end(int values);

@@ -149,6 +149,7 @@ TEST(NativeContacts, WhoFollowsFarBehindIsNotMissed) {
   slug_of(setup).mutable_surface_contact()->set_restitution(0.05);
   const surface::Vec3 down{{0.0, -400.0, 0.0}};
   std::vector<PlacedParticle> particles;
+  particles.reserve(5);
   for (int i = 0; i < 5; ++i) particles.push_back({{{0.0, 0.6e-3 + 12e-3 * i, 0.0}}, down, 0.0, 0.0});
   const Compared compared = compare(setup, 0.2e-3, particles);
   EXPECT_EQ(compared.differences, 0U);
