@@ -19,8 +19,6 @@
 
 namespace {
 
-using grainstep::transport::Channel;
-
 /// That of the program which the scene names.
 std::unique_ptr<grainstep::participant::ImpactorBackend> impactor_of(const grainstep::scene::Scene& scene) {
   using namespace grainstep;
