@@ -21,6 +21,7 @@ TEST(RestOn, DiscsBesideTheSurfaceAreRefusedAtOnce) {
   }
   const surface::Polyline flat(nodes, joined);
   std::vector<Vec2> discs;
+  discs.reserve(200);
   for (int i = 0; i < 200; ++i) discs.push_back({{1.0101 + 0.01 * i, 5.0}});
   const double radius = 0.01;
   std::vector<Vec2> far = {{{1e15, 5.0}}};
