@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <string_view>
+
 #include "base/error.hpp"
 
 namespace grainstep::scene {
@@ -27,7 +30,17 @@ struct Refused {
   const char* message;
 };
 
-void PrintTo(const Refused& one, std::ostream* out) { *out << one.text; }
+// What is no ASCII is escaped: a byte that is no UTF-8 must not get into a test's name, which tools read as text.
+void PrintTo(const Refused& one, std::ostream* out) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  for (const unsigned char byte : std::string_view(one.text)) {
+    if (byte >= 0x20 && byte < 0x7f) {
+      *out << static_cast<char>(byte);
+    } else {
+      *out << "\\x" << digits[byte / 16] << digits[byte % 16];
+    }
+  }
+}
 
 class Malformed : public testing::TestWithParam<Refused> {};
 
