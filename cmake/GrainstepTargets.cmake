@@ -38,11 +38,12 @@ endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1")  # line numbers for perf and backtraces; values want the debug preset
 
-# Most of a build is reading the headers of Protobuf, JSON and GoogleTest again and again: they are compiled once, for
+# Most of a build is reading the headers of Protobuf and GoogleTest again and again: they are compiled once, for
 # each kind of target. What a file includes stays what it needs: it must compile with this OFF as well.
 option(GRAINSTEP_PCH "Precompiled headers" ON)
 set(GRAINSTEP_PCH_hot <grainstep/wire.pb.h> <filesystem> <string> <vector>)
-set(GRAINSTEP_PCH_cold ${GRAINSTEP_PCH_hot} <nlohmann/json.hpp>)
+# JSON's would cost every file a second: its literals ask for the whole parser, which is instantiated wherever it is seen.
+set(GRAINSTEP_PCH_cold ${GRAINSTEP_PCH_hot})
 set(GRAINSTEP_PCH_test ${GRAINSTEP_PCH_hot} <gtest/gtest.h> <gmock/gmock.h>)
 
 # grainstep_precompile(target kind): `kind` as above; of one kind all compile with the same options.
@@ -61,7 +62,6 @@ function(grainstep_precompile target kind)
     endif()
     if(kind STREQUAL cold)
       grainstep_compile_cold(${pch})
-      target_link_libraries(${pch} PRIVATE nlohmann_json::nlohmann_json)
     elseif(kind STREQUAL test)
       target_link_libraries(${pch} PRIVATE GTest::gtest GTest::gmock)
     endif()
