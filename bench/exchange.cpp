@@ -2,6 +2,7 @@
 /// over every kind of channel, directly and through a forwarding hub like the orchestrator. Serialising, checksums and
 /// parsing are included. Prints a Markdown table.
 #include <poll.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/temporary_directory.hpp"
 #include "transport/in_process_channel.hpp"
+#include "transport/shared_channel.hpp"
 #include "transport/zmq_channel.hpp"
 #include "wire/message_channel.hpp"
 
@@ -198,6 +200,52 @@ Figures between_threads(bool through_hub, int bytes, int samples) {
   return figures;
 }
 
+/// Parses all that passes, every millisecond, as the orchestrator does.
+void listen(const transport::SharedPath& path) {
+  using Way = transport::SharedPath::Way;
+  transport::SharedChannel forces_way(path, Way::forces, "driver");
+  transport::SharedChannel kinematics_way(path, Way::kinematics, "answerer");
+  wire::MessageChannel forth(forces_way, "driver");
+  wire::MessageChannel back(kinematics_way, "answerer");
+  wire::Forces forces;
+  wire::Kinematics kinematics;
+  while (true) {
+    while (const wire::Frame* frame = forth.receive(Clock::now())) forth.take(*frame, forces);
+    while (const wire::Frame* frame = back.receive(Clock::now())) back.take(*frame, kinematics);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+/// Between two processes, and a third one that listens.
+Figures in_shared_memory(int bytes, int samples) {
+  using transport::SharedPath;
+  const auto nothing = [] {};
+  const SharedPath path = SharedPath::create(static_cast<std::uint64_t>(bytes) + 100);
+  const pid_t children[] = {in_process_of_its_own([&] {
+                              const SharedPath mine = SharedPath::open(path.file());
+                              transport::SharedChannel channel(mine, SharedPath::Way::kinematics, "driver", nothing);
+                              answer(channel);
+                            }),
+                            in_process_of_its_own([&] { listen(path); })};
+  transport::SharedChannel channel(path, SharedPath::Way::forces, "answerer", nothing);
+  const Figures figures = drive(channel, bytes, samples);
+  for (const pid_t child : children) {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+  }
+  return figures;
+}
+
+constexpr int sizes[] = {200, 2'000, 10'000, 100'000};
+
+void print_shared(int samples) {
+  for (const int bytes : sizes) {
+    const Figures heard = in_shared_memory(bytes, samples);
+    std::printf("| shared memory, heard | %d | %.1f | %.1f | - | - |\n", bytes, heard.median_us, heard.p99_us);
+    std::fflush(stdout);
+  }
+}
+
 void print_table(const std::string& directory, int samples) {
   constexpr Kind kinds[] = {{"in-process (threads)", nullptr, false},
                             {"ipc", "ipc://", false},
@@ -206,7 +254,7 @@ void print_table(const std::string& directory, int samples) {
   std::printf("| channel | bytes each way | direct: median us | p99 us | through a hub: median us | p99 us |\n");
   std::printf("|---|---|---|---|---|---|\n");
   for (const Kind& kind : kinds) {
-    for (const int bytes : {200, 2'000, 10'000, 100'000}) {
+    for (const int bytes : sizes) {
       const auto run = [&](bool hub) {
         return kind.endpoint == nullptr ? between_threads(hub, bytes, samples)
                                         : between_processes(kind, directory, hub, bytes, samples);
@@ -230,5 +278,6 @@ int main(int argc, char** argv) {
   const TemporaryDirectory directory;
   transport::make_keys(directory.path() / "keys");
   print_table(directory.path().string(), samples);
+  print_shared(samples);
   return 0;
 }

@@ -25,6 +25,11 @@ class Exchange {
   Exchange(Exchange&&) = delete;
   Exchange& operator=(Exchange&&) = delete;
 
+  /// hand_over() is next, within microseconds.
+  void announce() {
+    if (link_) link_->soon();
+  }
+
   /// Sends the nodal impulses of window n (N s), summed over all processes; empties `nodal`.
   void hand_over(std::uint64_t window, std::vector<surface::Vec2>& nodal);
 

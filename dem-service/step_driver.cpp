@@ -105,13 +105,15 @@ void StepDriver::before_pair_forces(std::uint64_t step, const ParticleArrays& pa
 }
 
 void StepDriver::touch(std::uint64_t step, const ParticleArrays& particles) {
+  const bool hands_over = step % start_.impactor_steps() == 0;
+  if (hands_over && start_.impactor_steps() > 1) exchange_.announce();
   if (step > 0 && !ended_) next_interval(step, particles);
   if (ended_) return;
   const double weight = step == 0 ? settings_.dt / 2.0 : settings_.dt;
   const double grown = step == 0 ? 0.0 : settings_.dt;
   if (const auto failure = contacts_.evaluate(particles, surface_, grown, weight, nodal_)) exchange_.fail(*failure);
   for (PlaneContacts& plane : planes_) plane.evaluate(particles);
-  if (step % start_.impactor_steps() == 0) exchange_.hand_over(step / start_.impactor_steps(), nodal_);
+  if (hands_over) exchange_.hand_over(step / start_.impactor_steps(), nodal_);
 }
 
 void StepDriver::after_pair_forces(std::uint64_t step, const ParticleArrays& particles) {

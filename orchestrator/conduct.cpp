@@ -52,7 +52,11 @@ class Run {
   Run(Hub& hub, const Conduct& how)
       : hub_(hub),
         how_(how),
-        session_(hub, {.scene = how.preparation.scene, .hash = how.preparation.hash, .end = how.preparation.groups.end},
+        session_(hub,
+                 {.scene = how.preparation.scene,
+                  .hash = how.preparation.hash,
+                  .end = how.preparation.groups.end,
+                  .path = how.path},
                  how.deadlines) {}
 
   void go() {
@@ -102,6 +106,7 @@ class Run {
                     .structure = hub_.structure().ready,
                     .impactor_timing = hub_.impactor().timing,
                     .structure_timing = hub_.structure().timing,
+                    .path = session_.path() == Path::shared ? "shared" : "hub",
                     .wall_seconds = wall.count(),
                     .orchestrator_seconds = processor_seconds() - processor_at_start_});
   }

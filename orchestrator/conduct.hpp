@@ -9,6 +9,7 @@
 #include "orchestrator/hub.hpp"
 #include "orchestrator/preparation.hpp"
 #include "orchestrator/progress.hpp"
+#include "orchestrator/session.hpp"
 #include "results/run_directory.hpp"
 
 namespace grainstep::orchestrator {
@@ -17,6 +18,7 @@ struct Conduct {
   const Preparation& preparation;
   const results::RunDirectory& directory;  ///< prepared
   Deadlines deadlines;
+  Path path = Path::hub;
   Progress::Style progress = Progress::Style::quiet;
   /// Given the name of a lost peer: what else is known of its end. May be empty.
   std::function<std::string(const std::string&)> account_of;

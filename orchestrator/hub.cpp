@@ -24,6 +24,7 @@ bool Hub::take_one(Peer& peer, const Handler& handler) {
     return false;
   }
   peer.heard = transport::Clock::now();
+  if (overhear_) overhear_();
   if (frame->kind == wire::Envelope::kError) {
     peer.finished = true;  // an Error is a participant's last message
     throw_error_of(peer, *frame);
@@ -34,6 +35,10 @@ bool Hub::take_one(Peer& peer, const Handler& handler) {
 
 void Hub::hear_last_words(const std::string& peer, const Handler& handler) {
   Peer& lost = peer == impactor_.name() ? impactor_ : structure_;
+  try {
+    if (overhear_) overhear_();
+  } catch (const PeerError&) {  // the one that is known already, or what follows from it
+  }
   const transport::Deadline end = transport::in(patience_for_last_words);
   while (!lost.finished && transport::Clock::now() < end) {
     const wire::Frame* frame = nullptr;

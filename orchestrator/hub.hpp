@@ -35,6 +35,13 @@ class Hub {
   using Done = std::function<bool()>;
   using Until = std::function<transport::Deadline()>;
 
+  /// Called after a message was received and before anything is made of it, and before last words: what takes another
+  /// way than the channels is to be heard no later than what came after it on a channel. Empty: nothing does.
+  using Overhear = std::function<void()>;
+  void overhear(Overhear overhear) { overhear_ = std::move(overhear); }
+
+  [[nodiscard]] EventLoop& loop() { return loop_; }
+
   /// The moment that many seconds from now.
   [[nodiscard]] static Until within(double seconds);
 
@@ -65,6 +72,7 @@ class Hub {
   Peer structure_;
   EventLoop& loop_;
   Watchdog watchdog_;
+  Overhear overhear_;
 };
 
 }  // namespace grainstep::orchestrator

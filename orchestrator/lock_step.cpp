@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -25,11 +26,12 @@ void require_finite(const Peer& peer, const char* what, std::uint64_t window,
 
 }  // namespace
 
-LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s)
+LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s, Listener* listener)
     : hub_(hub),
       observer_(observer),
       start_(start),
       silence_s_(silence_s),
+      listener_(listener),
       dimension_(std::max(1U, hub.structure().ready.surface().dimension())),
       values_(hub.structure().ready.surface().position_size()),
       position_(hub.structure().ready.surface().position().begin(), hub.structure().ready.surface().position().end()),
@@ -44,9 +46,14 @@ LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, d
     side->next_snapshot = due.snapshot ? first : participant::next_due(start, first, &participant::Due::snapshot);
     side->last_snapshot = side->next_snapshot > start.windows();
   }
+  if (listener_) hub_.overhear([this] { listen(); });
 }
 
+LockStep::~LockStep() { hub_.overhear({}); }
+
 void LockStep::run() {
+  std::optional<Ticking> ticking;
+  if (listener_) ticking.emplace(hub_.loop(), [this] { listen(); });
   const auto now = transport::Clock::now();
   hub_.impactor().heard = now;
   hub_.structure().heard = now;
@@ -84,10 +91,10 @@ bool LockStep::done() const {
 }
 
 void LockStep::handle(Peer& peer, const wire::Frame& frame) {
-  if (frame.kind == wire::Envelope::kForces && peer.role == wire::IMPACTOR) {
-    on_forces(frame);
-  } else if (frame.kind == wire::Envelope::kKinematics && peer.role == wire::STRUCTURE) {
-    on_kinematics(frame);
+  if (!listener_ && frame.kind == wire::Envelope::kForces && peer.role == wire::IMPACTOR) {
+    on_forces(peer.messages, frame);
+  } else if (!listener_ && frame.kind == wire::Envelope::kKinematics && peer.role == wire::STRUCTURE) {
+    on_kinematics(peer.messages, frame);
   } else if (frame.kind == wire::Envelope::kReport) {
     on_report(peer, frame);
   } else if (frame.kind == wire::Envelope::kSnapshot) {
@@ -99,6 +106,8 @@ void LockStep::handle(Peer& peer, const wire::Frame& frame) {
 }
 
 void LockStep::late(Peer& peer, const wire::Frame& frame) {
+  // On the short path the sides may be ahead of what was heard before the failure.
+  if (wire::window_of(frame).value_or(0) >= next_forces_) return;
   if (frame.kind == wire::Envelope::kReport) {
     on_report(peer, frame);
   } else if (frame.kind == wire::Envelope::kSnapshot) {
@@ -113,35 +122,78 @@ void LockStep::require_size(const Peer& peer, const char* what, std::uint64_t wi
   }
 }
 
-void LockStep::on_forces(const wire::Frame& frame) {
+// What has failed once is not asked again: the sides are still to be stopped, and heard.
+void LockStep::listen() {
+  if (deaf_) return;
+  try {
+    take_what_came();
+  } catch (...) {
+    deaf_ = true;
+    throw;
+  }
+}
+
+void LockStep::take_what_came() {
+  listener_->close_door();
+  while (take_next()) {
+  }
+}
+
+bool LockStep::take_next() {
+  const transport::Deadline now = transport::Clock::now();
+  // As on the other path: what the impactor reports of a window comes before its Forces of the next.
+  if (!structure_owes_ && (impactor_.next_report < next_forces_ || impactor_.next_snapshot < next_forces_))
+    return false;
+  Listener::Way& turn = structure_owes_ ? listener_->kinematics() : listener_->forces();
+  Listener::Way& other = structure_owes_ ? listener_->forces() : listener_->kinematics();
+  // Looked at before the one whose turn it is: what is there although that one has not spoken did not wait for it.
+  const bool out_of_turn = other.channel.pending();
+  if (const wire::Frame* frame = turn.messages.receive(now)) {
+    take(turn.messages, *frame);
+    return true;
+  }
+  if (!out_of_turn) return false;
+  if (const wire::Frame* frame = other.messages.receive(now)) take(other.messages, *frame);
+  return true;
+}
+
+void LockStep::take(wire::MessageChannel& from, const wire::Frame& frame) {
+  if (&from == &listener_->forces().messages) {
+    on_forces(from, frame);
+  } else {
+    on_kinematics(from, frame);
+  }
+}
+
+void LockStep::on_forces(wire::MessageChannel& from, const wire::Frame& frame) {
   Peer& impactor = hub_.impactor();
   if (structure_owes_ || next_forces_ > start_.windows() || wire::window_of(frame) != next_forces_) {
-    impactor.messages.refuse(
-        structure_owes_ ? "no Forces before the Kinematics of window " + std::to_string(next_forces_) + " were sent"
-                        : "Forces of window " + std::to_string(next_forces_),
-        frame);
+    from.refuse(structure_owes_
+                    ? "no Forces before the Kinematics of window " + std::to_string(next_forces_) + " were sent"
+                    : "Forces of window " + std::to_string(next_forces_),
+                frame);
   }
-  hub_.structure().messages.forward(frame);
+  if (!listener_) hub_.structure().messages.forward(frame);
   hub_.structure().heard = transport::Clock::now();
   const std::uint64_t window = next_forces_++;
   structure_owes_ = window < start_.windows();
-  impactor.messages.take(frame, forces_, window);
+  from.take(frame, forces_, window);
   require_size(impactor, "Forces", window, forces_.impulse_size());
   require_finite(impactor, "Forces", window, forces_.impulse());
   observer_.forces(forces_);
 }
 
-void LockStep::on_kinematics(const wire::Frame& frame) {
+void LockStep::on_kinematics(wire::MessageChannel& from, const wire::Frame& frame) {
   Peer& structure = hub_.structure();
   if (!structure_owes_ || wire::window_of(frame) != next_forces_) {
-    structure.messages.refuse(structure_owes_ ? "Kinematics of window " + std::to_string(next_forces_)
-                                              : std::string("no Kinematics before the next Forces were sent"),
-                              frame);
+    from.refuse(structure_owes_ ? "Kinematics of window " + std::to_string(next_forces_)
+                                : std::string("no Kinematics before the next Forces were sent"),
+                frame);
   }
-  hub_.impactor().messages.forward(frame);
+  if (!listener_) hub_.impactor().messages.forward(frame);
   hub_.impactor().heard = transport::Clock::now();
   structure_owes_ = false;
-  structure.messages.take(frame, kinematics_, next_forces_);
+  from.take(frame, kinematics_, next_forces_);
   require_size(structure, "position in Kinematics", next_forces_, kinematics_.position_size());
   require_size(structure, "velocity in Kinematics", next_forces_, kinematics_.velocity_size());
   require_finite(structure, "position in Kinematics", next_forces_, kinematics_.position());

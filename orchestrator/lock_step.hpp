@@ -6,6 +6,7 @@
 
 #include "orchestrator/check_report.hpp"
 #include "orchestrator/hub.hpp"
+#include "orchestrator/listener.hpp"
 #include "orchestrator/step_observer.hpp"
 
 namespace grainstep::orchestrator {
@@ -15,7 +16,11 @@ namespace grainstep::orchestrator {
 /// observer throws.
 class LockStep {
  public:
-  LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s);
+  /// `listener`: where Forces and Kinematics are heard that take the short path; nullptr: they go through here.
+  LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s, Listener* listener = nullptr);
+  LockStep(const LockStep&) = delete;
+  LockStep& operator=(const LockStep&) = delete;
+  ~LockStep();
 
   void run();
 
@@ -28,8 +33,12 @@ class LockStep {
 
  private:
   void handle(Peer& peer, const wire::Frame& frame);
-  void on_forces(const wire::Frame& frame);
-  void on_kinematics(const wire::Frame& frame);
+  void on_forces(wire::MessageChannel& from, const wire::Frame& frame);
+  void on_kinematics(wire::MessageChannel& from, const wire::Frame& frame);
+  void listen();
+  void take_what_came();           ///< on the short path
+  [[nodiscard]] bool take_next();  ///< false: nothing is there whose turn it is
+  void take(wire::MessageChannel& from, const wire::Frame& frame);
   void on_report(Peer& peer, const wire::Frame& frame);
   void on_snapshot(Peer& peer, const wire::Frame& frame);
   void require_size(const Peer& peer, const char* what, std::uint64_t window, int found) const;
@@ -51,6 +60,7 @@ class LockStep {
   StepObserver& observer_;
   wire::Start start_;
   double silence_s_;
+  Listener* listener_;
   unsigned dimension_;
   int values_;                    // nodes x dimension of the surface
   std::vector<double> position_;  // m, of the surface at the last exchange
@@ -61,6 +71,7 @@ class LockStep {
   wire::Forces forces_;  // kept: their capacity is reused
   wire::Kinematics kinematics_;
   wire::Report report_;
+  bool deaf_ = false;            // listening has failed
   bool structure_owes_ = false;  // Forces were forwarded, the Kinematics they lead to are not here yet
 };
 

@@ -41,6 +41,14 @@ void announce(const RunOptions& options, const Preparation& preparation, const r
   std::fflush(stdout);
 }
 
+/// Those that somebody else has started may sit in containers: they share this host's memory only on a user's word.
+Path path_of(const RunOptions& options, const scene::Scene& scene) {
+  if (options.path == "hub") return Path::hub;
+  if (options.path == "shared") return Path::shared;
+  const bool external = is_external(wire::IMPACTOR, scene, options) || is_external(wire::STRUCTURE, scene, options);
+  return external ? Path::hub : Path::shared_if_possible;
+}
+
 Ending run_prepared(const RunOptions& options, const Preparation& preparation, const results::RunDirectory& directory) {
   process::Interrupt interrupt;  // before the first thread
   EventLoop loop;
@@ -63,6 +71,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
       conduct(hub, {.preparation = preparation,
                     .directory = directory,
                     .deadlines = options.deadlines,
+                    .path = path_of(options, preparation.scene),
                     .progress = Progress::style_for(stdout, options.quiet),
                     .account_of = [&supervision](const std::string& peer) { return supervision.account_of(peer); }});
   supervision.end_all(ending.code == ExitCode::done ? patience_at_the_end : patience_after_a_failure);

@@ -1,11 +1,22 @@
 #include "orchestrator/session.hpp"
 
+#include <algorithm>
 #include <string>
+#include <system_error>
 
 #include "base/error.hpp"
+#include "participant/data_path.hpp"
 #include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
+namespace {
+
+bool can_share_memory(const Peer& peer) {
+  return std::ranges::count(peer.hello.capabilities(), participant::DataPath::capability) > 0;
+}
+
+}  // namespace
+
 Demands Session::demands_of(const Peer& peer) const {
   return {.dimension = scene::surface_dimension(task_.scene),
           .needs = scene::needs(task_.scene, peer.role),
@@ -84,11 +95,30 @@ StepPlan Session::prepare() {
   return plan_steps(task_.scene, task_.end, steps_of(hub_.impactor().ready), steps_of(hub_.structure().ready));
 }
 
+std::unique_ptr<Listener> Session::listener() const {
+  if (task_.path == Path::hub) return nullptr;
+  for (const Peer* peer : {&hub_.impactor(), &hub_.structure()}) {
+    if (can_share_memory(*peer)) continue;
+    if (task_.path == Path::shared_if_possible) return nullptr;
+    throw InputError("--path shared: the " + peer->name() + " (" + peer->hello.backend() +
+                     ") cannot share memory with the other side; --path hub takes another way");
+  }
+  try {
+    return std::make_unique<Listener>(static_cast<std::uint64_t>(hub_.structure().ready.surface().position_size()));
+  } catch (const std::system_error& error) {
+    if (task_.path == Path::shared_if_possible) return nullptr;
+    throw InputError(std::string("--path shared: this host gives no memory to share: ") + error.what() +
+                     "; --path hub takes another way");
+  }
+}
+
 void Session::run(const StepPlan& plan, StepObserver& observer) {
-  const wire::Start start = plan.start();
+  wire::Start start = plan.start();
+  listener_ = listener();
+  if (listener_) start.mutable_shared_memory()->set_file(listener_->file());
   hub_.send(hub_.structure(), start);
   hub_.send(hub_.impactor(), start);
-  steps_.emplace(hub_, observer, start, deadlines_.step_s);
+  steps_.emplace(hub_, observer, start, deadlines_.step_s, listener_.get());
   steps_->run();
   observer.finish();
   stop_sides("complete");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "grainstep/scene.pb.h"
@@ -14,12 +15,20 @@
 
 namespace grainstep::orchestrator {
 
+/// The way of Forces and Kinematics (proto/README.md, "The path of data").
+enum class Path {
+  hub,                 ///< through the orchestrator
+  shared,              ///< through memory that the sides share
+  shared_if_possible,  ///< that, or through the orchestrator where one side cannot, or the host has no such memory
+};
+
 /// What a session needs to know of a scene.
 struct Task {
   const scene::Scene& scene;
   std::uint64_t hash = 0;
   double end = 0.0;      ///< s
   bool preview = false;  ///< nothing will be started: only what the sides say before is wanted
+  Path path = Path::hub;
 };
 
 /// Order of calls: introduce, prepare, run (of a preview: introduce, ask, end); and at any time after construction,
@@ -43,6 +52,9 @@ class Session {
   /// Start, all windows, Stop, Finished.
   void run(const StepPlan& plan, StepObserver& observer);
 
+  /// Which one run() takes; hub before.
+  [[nodiscard]] Path path() const { return listener_ ? Path::shared : Path::hub; }
+
   /// Asks both sides, but for `lost` (a peer's name, or empty), to stop and waits a little for their answers. What they
   /// had reported before is still handed to run()'s observer, which has to be there until this returns.
   void abandon(const std::string& reason, const std::string& lost) noexcept;
@@ -56,11 +68,14 @@ class Session {
   [[nodiscard]] bool finished() { return hub_.impactor().finished && hub_.structure().finished; }
   void lose(const std::string& name);
   void hear_the_rest(Peer& peer, const wire::Frame& frame);
+  /// nullptr: Forces and Kinematics come through here. InputError where the task's path cannot be had.
+  [[nodiscard]] std::unique_ptr<Listener> listener() const;
 
   Hub& hub_;
   Task task_;
   Deadlines deadlines_;
-  std::optional<LockStep> steps_;
+  std::unique_ptr<Listener> listener_;
+  std::optional<LockStep> steps_;  // hears through it
 };
 
 }  // namespace grainstep::orchestrator

@@ -94,6 +94,7 @@ Json summary(const SummaryInput& in) {
   out["structure_steps"] = std::max(f.structure_steps, in.structure_timing.steps());
   out["impactor_step"] = in.plan ? number(in.plan->impactor_step) : Json(nullptr);
   out["structure_step"] = in.plan ? number(in.plan->structure_step) : Json(nullptr);
+  out["path"] = in.path;
   out["wall_seconds"] = in.wall_seconds;
   out["wall_split"] = split_of(in);
   out["processor_seconds"] = in.impactor_timing.processor() + in.structure_timing.processor() + in.orchestrator_seconds;

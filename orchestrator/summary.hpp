@@ -22,6 +22,7 @@ struct SummaryInput {
   wire::Ready structure;
   wire::Timing impactor_timing;
   wire::Timing structure_timing;
+  std::string path = "hub";  ///< of Forces and Kinematics: hub, shared
   double wall_seconds = 0.0;
   double orchestrator_seconds = 0.0;  ///< processor time of the orchestrator itself
 };

@@ -54,6 +54,8 @@ class ImpactorLink {
   [[nodiscard]] virtual const wire::Kinematics* surface(std::uint64_t window) = 0;
 
   [[nodiscard]] virtual Due due(std::uint64_t window) const = 0;
+  /// Forces will be sent within microseconds; may be left out. Where the other side sleeps, it wakes up for them.
+  virtual void soon() {}
   virtual void send(const wire::Forces& forces) = 0;
   virtual void send(wire::Report& report) = 0;  ///< the link fills in Timing.wait
   virtual void send(const wire::Snapshot& snapshot) = 0;

@@ -7,6 +7,7 @@
 #include "base/processor_time.hpp"
 #include "participant/check_start.hpp"
 #include "participant/check_surface.hpp"
+#include "participant/data_path.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -22,11 +23,23 @@ std::optional<std::string> problem_of_surface(const wire::Setup& setup) {
 
 double seconds_of(transport::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
+/// The orchestrator says Stop while data take the short path.
+class Stopped {};
+
+constexpr auto between_looks = std::chrono::milliseconds(2);  // at the orchestrator, while data come
+
 }  // namespace
+
+Conversation::Conversation(transport::Channel& channel, const ServeOptions& options)
+    : messages_(channel, "orchestrator"), options_(options) {}
+
+Conversation::~Conversation() = default;
 
 bool Conversation::introduce(wire::Hello hello, wire::Role role, wire::Setup& setup) {
   hello.set_protocol(wire::PROTOCOL_VERSION);
   hello.set_role(role);
+  role_ = role;
+  if (options_.shared_memory) hello.add_capabilities(DataPath::capability);
   hello.set_process(static_cast<std::uint64_t>(::getpid()));
   messages_.send(hello);
   const wire::Frame* frame = next("Setup", options_.setup_deadline_s);
@@ -62,6 +75,7 @@ bool Conversation::wait_for_start(wire::Start& start) {
   if (preview_) messages_.refuse("Stop after the Ready of a preview, for which no model was built", *frame);
   messages_.take(*frame, start);
   if (const auto found = start_problem(start)) refuse(*found);
+  if (start.has_shared_memory()) open_data_path(start);
   started_ = transport::Clock::now();
   processor_at_start_ = processor_seconds();
   return true;
@@ -69,7 +83,9 @@ bool Conversation::wait_for_start(wire::Start& start) {
 
 const wire::Frame* Conversation::wait_for_data(const std::string& kind, std::uint64_t window) {
   const auto before = transport::Clock::now();
-  const wire::Frame* frame = next(kind + " of window " + std::to_string(window), options_.data_deadline_s);
+  const std::string expected = kind + " of window " + std::to_string(window);
+  const wire::Frame* frame =
+      data_ ? next_on_data_path(expected, options_.data_deadline_s) : next(expected, options_.data_deadline_s);
   waited_ += transport::Clock::now() - before;
   return frame;
 }
@@ -87,6 +103,43 @@ const wire::Frame* Conversation::next(const std::string& expected, double deadli
     return nullptr;
   }
   return frame;
+}
+
+wire::MessageChannel& Conversation::data() { return data_ ? data_->messages() : messages_; }
+
+void Conversation::open_data_path(const wire::Start& start) {
+  data_ = std::make_unique<DataPath>(start.shared_memory().file(), role_, [this] { look_for_stop(); });
+}
+
+void Conversation::look_for_stop() {
+  looked_ = transport::Clock::now();
+  const wire::Frame* frame = messages_.receive(looked_);
+  if (frame == nullptr) return;
+  if (frame->kind != wire::Envelope::kStop) messages_.refuse("Stop: data take the short path", *frame);
+  stopped_ = true;
+  throw Stopped();
+}
+
+const wire::Frame* Conversation::next_on_data_path(const std::string& expected, double deadline_s) {
+  try {
+    if (transport::Clock::now() - looked_ > between_looks) look_for_stop();
+    const wire::Frame* frame = data_->messages().receive(transport::in(std::chrono::duration<double>(deadline_s)));
+    if (frame == nullptr) refuse("expected " + expected + ", heard nothing for " + seconds_text(deadline_s));
+    return frame;
+  } catch (const Stopped&) {
+    return nullptr;
+  }
+}
+
+void Conversation::knock() {
+  if (data_) data_->knock();
+}
+
+void Conversation::send_data(const std::function<void(wire::MessageChannel&)>& send) {
+  try {
+    send(data());
+  } catch (const Stopped&) {  // nobody wants it any more
+  }
 }
 
 void Conversation::send_report(wire::Report& report) {

@@ -1,17 +1,23 @@
 /// @file The part of the conversation that both roles share: from Hello to Start, data with its waiting time, Stop.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <type_traits>
+
 #include "participant/serve.hpp"
 #include "wire/message_channel.hpp"
 
 namespace grainstep::participant {
 
+class DataPath;
+
 /// What one participant says and hears, in order. Throws PeerError when the orchestrator is lost, silent beyond a
 /// deadline, or breaks the order. After a Stop every wait returns "stopped" and nothing but Finished is sent.
 class Conversation {
  public:
-  Conversation(transport::Channel& channel, const ServeOptions& options)
-      : messages_(channel, "orchestrator"), options_(options) {}
+  Conversation(transport::Channel& channel, const ServeOptions& options);
+  ~Conversation();
 
   /// Hello, Setup, Ready. Returns the Setup; false: stopped.
   [[nodiscard]] bool introduce(wire::Hello hello, wire::Role role, wire::Setup& setup);
@@ -26,16 +32,21 @@ class Conversation {
     if (frame == nullptr) {
       return false;
     }
-    messages_.take(*frame, message, window);
+    data().take(*frame, message, window);
     return true;
   }
 
   template <wire::Body Message>
   void send(const Message& message) {
-    if (!stopped_) {
+    if (stopped_) return;
+    if constexpr (std::is_same_v<Message, wire::Forces> || std::is_same_v<Message, wire::Kinematics>) {
+      send_data([&](wire::MessageChannel& data) { data.send(message); });
+    } else {
       messages_.send(message);
     }
   }
+  /// Data will be sent within microseconds: where the other side can wake up for them before, it does.
+  void knock();
   void send_report(wire::Report& report);
   /// The last message after a bad end; also after Stop.
   void send_error(const wire::Error& error) { messages_.send(error); }
@@ -47,13 +58,24 @@ class Conversation {
   [[noreturn]] void refuse(const std::string& text) const;
 
  private:
-  /// The next message; nullptr after Stop.
+  /// The next message of the orchestrator; nullptr after Stop.
   const wire::Frame* next(const std::string& expected, double deadline_s);
+  /// The same on the short path.
+  const wire::Frame* next_on_data_path(const std::string& expected, double deadline_s);
+  void open_data_path(const wire::Start& start);
+  /// While data take the short path, the orchestrator says nothing but Stop, which is thrown from here.
+  void look_for_stop();
+  /// What Forces and Kinematics go over.
+  [[nodiscard]] wire::MessageChannel& data();
+  void send_data(const std::function<void(wire::MessageChannel&)>& send);
   const wire::Frame* wait_for_data(const std::string& kind, std::uint64_t window);
   void fill_timing(wire::Timing& timing) const;
 
   wire::MessageChannel messages_;
   ServeOptions options_;
+  wire::Role role_ = wire::ROLE_UNSET;
+  std::unique_ptr<DataPath> data_;  ///< none: data go through the orchestrator
+  transport::Clock::time_point looked_{};
   transport::Clock::time_point started_{};
   double processor_at_start_ = 0.0;
   transport::Clock::duration waited_{};

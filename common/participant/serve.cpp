@@ -53,6 +53,7 @@ void converse(Conversation& talk, StructureBackend& backend) {
       break;
     }
     check_length(talk, "Forces.impulse", forces.impulse_size(), values);
+    talk.knock();
     const Due due = due_at(start, window);
     next.Clear();
     next.set_window(window + 1);
@@ -93,6 +94,7 @@ class Link final : public ImpactorLink {
   }
 
   Due due(std::uint64_t window) const override { return due_at(start_, window); }
+  void soon() override { talk_.knock(); }
   void send(const wire::Forces& forces) override { talk_.send(forces); }
   void send(wire::Report& report) override { talk_.send_report(report); }
   void send(const wire::Snapshot& snapshot) override { talk_.send(snapshot); }

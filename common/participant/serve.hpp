@@ -22,6 +22,7 @@ namespace grainstep::participant {
 struct ServeOptions {
   double setup_deadline_s = 600.0;  ///< for Setup and for Start: the other side may have to prepare in between
   double data_deadline_s = 3600.0;  ///< for one message of the other side while the run goes on
+  bool shared_memory = true;        ///< data may take it where the orchestrator offers it (proto/README.md)
   std::ostream* errors = nullptr;   ///< where the one line about a bad end goes; nullptr: std::cerr
 };
 

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "orchestrator/listener.hpp"
 #include "orchestrator/step_observer.hpp"
 #include "transport/in_process_channel.hpp"
 #include "wire/message_channel.hpp"
@@ -47,6 +48,20 @@ class ByHand {
   std::unique_ptr<transport::Channel> near_;
   std::unique_ptr<transport::Channel> far_;
   std::optional<wire::MessageChannel> messages_;
+
+  /// From now on its data take the short path.
+  void share(const std::filesystem::path& file, transport::SharedPath::Way out) {
+    path_.emplace(transport::SharedPath::open(file));
+    shared_.emplace(*path_, out, "the other side", [] {});
+    data_.emplace(*shared_, "the other side");
+  }
+  /// What its Forces or Kinematics go over.
+  [[nodiscard]] wire::MessageChannel& data() { return data_ ? *data_ : *messages_; }
+
+ private:
+  std::optional<transport::SharedPath> path_;
+  std::optional<transport::SharedChannel> shared_;
+  std::optional<wire::MessageChannel> data_;
 };
 
 }  // namespace grainstep::orchestrator

@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "both_paths.hpp"
 #include "hand_played.hpp"
 #include "patience.hpp"
 
@@ -16,7 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class HandPlayed : public ::testing::Test {
+/// Of both paths: what is checked must not depend on the way.
+class HandPlayed : public ::testing::TestWithParam<Path> {
  protected:
   HandPlayed() : hub_(*impactor_.near_, *structure_.near_, loop_) {
     hub_.structure().ready.mutable_surface()->set_dimension(2);
@@ -25,6 +28,10 @@ class HandPlayed : public ::testing::Test {
     start_.set_window(1e-3);
     start_.set_windows(10);
     start_.set_report_every(5);
+    if (GetParam() == Path::hub) return;
+    listener_ = std::make_unique<Listener>(4);
+    impactor_.share(listener_->file(), transport::SharedPath::Way::forces);
+    structure_.share(listener_->file(), transport::SharedPath::Way::kinematics);
   }
   static wire::Forces forces(std::uint64_t window, double value = -1.0) {
     wire::Forces out;
@@ -43,7 +50,7 @@ class HandPlayed : public ::testing::Test {
   }
   std::string run(double silence_s = grainstep::testing::patience_s) {
     try {
-      LockStep(hub_, witness_, start_, silence_s).run();
+      LockStep(hub_, witness_, start_, silence_s, listener_.get()).run();
     } catch (const PeerError& error) {
       return std::string("peer: ") + error.what();
     } catch (const NumericalError& error) {
@@ -58,142 +65,144 @@ class HandPlayed : public ::testing::Test {
   Hub hub_;
   wire::Start start_;
   Witness witness_;
+  std::unique_ptr<Listener> listener_;
 };
+INSTANTIATE_TEST_SUITE_P(, HandPlayed, ::testing::Values(Path::hub, Path::shared), name_of_path);
 
-TEST_F(HandPlayed, PassesForcesOnUnchanged) {
-  impactor_.messages_->send(forces(0, -0.1));
+TEST_P(HandPlayed, PassesForcesOnUnchanged) {
+  impactor_.data().send(forces(0, -0.1));
   EXPECT_THAT(run(0.2), HasSubstr("peer: structure: said nothing for"));
-  const wire::Frame* frame = structure_.messages_->receive(transport::Clock::now());
+  const wire::Frame* frame = structure_.data().receive(transport::Clock::now());
   ASSERT_NE(frame, nullptr);
   wire::Forces seen;
-  structure_.messages_->take(*frame, seen, 0);
+  structure_.data().take(*frame, seen, 0);
   EXPECT_EQ(seen.SerializeAsString(), forces(0, -0.1).SerializeAsString());
 }
 
-TEST_F(HandPlayed, NamesTheSideThatIsSilent) { EXPECT_THAT(run(0.1), HasSubstr("peer: impactor: said nothing for")); }
+TEST_P(HandPlayed, NamesTheSideThatIsSilent) { EXPECT_THAT(run(0.1), HasSubstr("peer: impactor: said nothing for")); }
 
-TEST_F(HandPlayed, RefusesAWindowThatIsNotNext) {
-  impactor_.messages_->send(forces(1));
+TEST_P(HandPlayed, RefusesAWindowThatIsNotNext) {
+  impactor_.data().send(forces(1));
   EXPECT_THAT(run(), HasSubstr("expected Forces of window 0, got Forces of window 1"));
 }
 
-TEST_F(HandPlayed, RefusesForcesThatDidNotWaitForTheSurface) {
-  impactor_.messages_->send(forces(0));
-  impactor_.messages_->send(forces(1));
+TEST_P(HandPlayed, RefusesForcesThatDidNotWaitForTheSurface) {
+  impactor_.data().send(forces(0));
+  impactor_.data().send(forces(1));
   EXPECT_THAT(run(), HasSubstr("peer: impactor: message 2: expected no Forces before the Kinematics of window 1"));
 }
 
-TEST_F(HandPlayed, RefusesKinematicsNobodyAskedFor) {
-  structure_.messages_->send(kinematics(1));
+TEST_P(HandPlayed, RefusesKinematicsNobodyAskedFor) {
+  structure_.data().send(kinematics(1));
   EXPECT_THAT(run(), HasSubstr("peer: structure: message 1: expected no Kinematics before the next Forces"));
 }
 
-TEST_F(HandPlayed, RefusesAMessageOfTheWrongSize) {
+TEST_P(HandPlayed, RefusesAMessageOfTheWrongSize) {
   auto wrong = forces(0);
   wrong.add_impulse(0.0);
-  impactor_.messages_->send(wrong);
+  impactor_.data().send(wrong);
   EXPECT_THAT(run(), HasSubstr("peer: impactor: Forces of window 0 holds 5 values, the surface has 4"));
 }
 
-TEST_F(HandPlayed, RefusesAVelocityThatIsNotTheMotion) {
+TEST_P(HandPlayed, RefusesAVelocityThatIsNotTheMotion) {
   auto half = kinematics(1);  // the last of two steps, instead of the mean of both
   half.set_position(3, -2e-3);
   half.set_velocity(3, -3.0);
-  impactor_.messages_->send(forces(0));
-  structure_.messages_->send(half);
+  impactor_.data().send(forces(0));
+  structure_.data().send(half);
   EXPECT_THAT(run(), HasSubstr("peer: structure: Kinematics of window 1: coordinate 2 of node 1 moved by -0.002 m, but "
                                "the velocity sent with it times the window makes -0.003 m"));
 }
 
-TEST_F(HandPlayed, TakesTheMeanVelocityOfTheMotion) {
+TEST_P(HandPlayed, TakesTheMeanVelocityOfTheMotion) {
   auto mean = kinematics(1);
   mean.set_position(3, -2e-3);
   mean.set_velocity(3, -2.0);
-  impactor_.messages_->send(forces(0));
-  structure_.messages_->send(mean);
+  impactor_.data().send(forces(0));
+  structure_.data().send(mean);
   EXPECT_THAT(run(0.2), HasSubstr("peer: impactor: said nothing for"));
 }
 
 // docs/theory/step.md: 1% is refused. What round-off leaves of the mean over many steps is not.
-TEST_F(HandPlayed, AVelocityMayBeOffTheMotionByRoundOffOnly) {
+TEST_P(HandPlayed, AVelocityMayBeOffTheMotionByRoundOffOnly) {
   auto off = kinematics(1);
   off.set_position(3, -2e-3);
   off.set_velocity(3, -2.0 * (1.0 + 1e-2));
-  impactor_.messages_->send(forces(0));
-  structure_.messages_->send(off);
+  impactor_.data().send(forces(0));
+  structure_.data().send(off);
   EXPECT_THAT(run(), HasSubstr("coordinate 2 of node 1 moved by"));
 }
 
-TEST_F(HandPlayed, AHundredthOfAPercentIsRefusedToo) {
+TEST_P(HandPlayed, AHundredthOfAPercentIsRefusedToo) {
   auto off = kinematics(1);
   off.set_position(3, -2e-3);
   off.set_velocity(3, -2.0 * (1.0 + 1e-4));
-  impactor_.messages_->send(forces(0));
-  structure_.messages_->send(off);
+  impactor_.data().send(forces(0));
+  structure_.data().send(off);
   EXPECT_THAT(run(), HasSubstr("coordinate 2 of node 1 moved by"));
 }
 
-TEST_F(HandPlayed, TheMotionOfTheSecondWindowIsCountedFromTheFirst) {
+TEST_P(HandPlayed, TheMotionOfTheSecondWindowIsCountedFromTheFirst) {
   auto first = kinematics(1);
   first.set_position(3, -2e-3);
   first.set_velocity(3, -2.0);
   auto second = kinematics(2);
   second.set_position(3, -4e-3 * (1.0 + 1e-9));
   second.set_velocity(3, -2.0);
-  impactor_.messages_->send(forces(0));
-  structure_.messages_->send(first);
-  impactor_.messages_->send(forces(1));
-  structure_.messages_->send(second);
+  impactor_.data().send(forces(0));
+  structure_.data().send(first);
+  impactor_.data().send(forces(1));
+  structure_.data().send(second);
   EXPECT_THAT(run(0.2), HasSubstr("peer: impactor: said nothing for"));
 }
 
 // The very number, without waiting for it: a test that measured the wait would fail on a busy machine.
-TEST_F(HandPlayed, TheSideThatIsWaitedForHasItsSecondsFromItsLastWord) {
+TEST_P(HandPlayed, TheSideThatIsWaitedForHasItsSecondsFromItsLastWord) {
   constexpr double silence = 20.0;
   const transport::Clock::duration patience = std::chrono::seconds(20);
-  const LockStep steps(hub_, witness_, start_, silence);
+  const LockStep steps(hub_, witness_, start_, silence, listener_.get());
   EXPECT_EQ(steps.deadline(), hub_.impactor().heard + patience);
   hub_.structure().heard += std::chrono::hours(1);
   EXPECT_EQ(steps.deadline(), hub_.impactor().heard + patience);
 }
 
-TEST_F(HandPlayed, NumbersThatAreNotFiniteEndTheRun) {
-  impactor_.messages_->send(forces(0, std::numeric_limits<double>::quiet_NaN()));
+TEST_P(HandPlayed, NumbersThatAreNotFiniteEndTheRun) {
+  impactor_.data().send(forces(0, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_THAT(run(), HasSubstr("numerical: impactor: Forces of window 0: value 0 is nan"));
 }
 
-TEST_F(HandPlayed, ASurfaceThatIsNowhereEndsTheRun) {
+TEST_P(HandPlayed, ASurfaceThatIsNowhereEndsTheRun) {
   auto nowhere = kinematics(1);
   nowhere.set_position(1, std::numeric_limits<double>::infinity());
-  impactor_.messages_->send(forces(0));
-  structure_.messages_->send(nowhere);
+  impactor_.data().send(forces(0));
+  structure_.data().send(nowhere);
   EXPECT_THAT(run(), HasSubstr("numerical: structure: position in Kinematics of window 1: value 1 is inf"));
 }
 
-TEST_F(HandPlayed, ASurfaceOfNoSpeedEndsTheRun) {
+TEST_P(HandPlayed, ASurfaceOfNoSpeedEndsTheRun) {
   auto nowhere = kinematics(1);
   nowhere.set_velocity(2, std::numeric_limits<double>::quiet_NaN());
-  impactor_.messages_->send(forces(0));
-  structure_.messages_->send(nowhere);
+  impactor_.data().send(forces(0));
+  structure_.data().send(nowhere);
   EXPECT_THAT(run(), HasSubstr("numerical: structure: velocity in Kinematics of window 1: value 2 is nan"));
 }
 
-TEST_F(HandPlayed, AReportThatIsNoNumberEndsTheRun) {
+TEST_P(HandPlayed, AReportThatIsNoNumberEndsTheRun) {
   wire::Report report;
   report.mutable_energy()->set_plastic(std::numeric_limits<double>::quiet_NaN());
   structure_.messages_->send(report);
   EXPECT_THAT(run(), HasSubstr("numerical: structure: report of window 0: energy.plastic = nan"));
 }
 
-TEST_F(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
-  impactor_.messages_->send(forces(0));
+TEST_P(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
+  impactor_.data().send(forces(0));
   impactor_.far_.reset();
   EXPECT_THAT(run(), HasSubstr("peer: impactor: "));
   EXPECT_EQ(witness_.forces_.size(), 1U);
 }
 
 // The structure fails and goes while Forces for it are on their way: the loss is noticed when they are sent.
-TEST_F(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
+TEST_P(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
   wire::Report report;
   report.set_window(0);
   for (auto* vector :
@@ -207,18 +216,18 @@ TEST_F(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
   error.set_text("an element is inside out");
   structure_.messages_->send(error);
   structure_.far_.reset();
-  impactor_.messages_->send(forces(0));
+  impactor_.data().send(forces(0));
   EXPECT_EQ(run(), "numerical: structure: an element is inside out");
   EXPECT_EQ(witness_.structure_.size(), 1U) << "its report of that window was lost";
 }
 
-TEST_F(HandPlayed, DamagedBytesArePeerErrors) {
+TEST_P(HandPlayed, DamagedBytesArePeerErrors) {
   const std::vector<std::byte> noise(40, std::byte{7});
-  impactor_.far_->send(noise);
+  impactor_.data().channel().send(noise);
   EXPECT_THAT(run(), HasSubstr("peer: impactor: message 1: expected a frame"));
 }
 
-TEST_F(HandPlayed, ReportsOfAnotherWindowThanDueAreRefused) {
+TEST_P(HandPlayed, ReportsOfAnotherWindowThanDueAreRefused) {
   wire::Report report;
   report.set_window(3);
   impactor_.messages_->send(report);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "both_paths.hpp"
 #include "fake_backends.hpp"
 #include "hand_played.hpp"
 #include "ledger/ledger.hpp"
@@ -25,13 +26,13 @@ using ::testing::HasSubstr;
 /// Both fakes in threads, a session in this one.
 class Stage {
  public:
-  Stage(fake::Trouble impactor_trouble, fake::Trouble structure_trouble, double impactor_step = 2.5e-4)
-      : impactor_(std::move(impactor_trouble), impactor_step), structure_(std::move(structure_trouble)) {
+  Stage(Path path, fake::Trouble impactor_trouble, fake::Trouble structure_trouble, double impactor_step = 2.5e-4)
+      : path_(path), impactor_(std::move(impactor_trouble), impactor_step), structure_(std::move(structure_trouble)) {
     scene_.mutable_output()->set_rows(20);
     scene_.mutable_output()->set_snapshots(5);
     scene_.set_depth(fake::depth);
   }
-  Stage() : Stage({}, {}) {}
+  explicit Stage(Path path) : Stage(path, {}, {}) {}
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
   ~Stage() {
@@ -50,7 +51,8 @@ class Stage {
     std::ostringstream quiet_i;
     std::ostringstream quiet_s;
     std::thread impactor([this, far = std::move(i_far), &quiet_i]() mutable {
-      impactor_code_ = participant::serve_impactor(*far, impactor_, {.errors = &quiet_i});
+      impactor_code_ =
+          participant::serve_impactor(*far, impactor_, {.shared_memory = impactor_shares_, .errors = &quiet_i});
       far.reset();
     });
     std::thread structure([this, far = std::move(s_far), &quiet_s]() mutable {
@@ -73,17 +75,20 @@ class Stage {
   Deadlines deadlines_{.connect_s = grainstep::testing::patience_s,
                        .step_s = grainstep::testing::patience_s,
                        .stop_s = grainstep::testing::patience_s};
+  bool impactor_shares_ = true;
+  Path taken_ = Path::shared_if_possible;
   int impactor_code_ = -1;
   int structure_code_ = -1;
   std::function<void()> structure_ended_ = [] {};  // it has said all that it says
 
  private:
   std::string converse(Hub& hub, double end) {
-    Session session(hub, {.scene = scene_, .hash = 77, .end = end}, deadlines_);
+    Session session(hub, {.scene = scene_, .hash = 77, .end = end, .path = path_}, deadlines_);
     try {
       session.introduce();
       plan_ = session.prepare();
       session.run(*plan_, witness_);
+      taken_ = session.path();
     } catch (const PeerError& error) {
       session.abandon(error.what(), error.peer());
       return std::string("peer: ") + error.what();
@@ -97,6 +102,7 @@ class Stage {
     return "";
   }
 
+  Path path_;
   scene::Scene scene_;
   fake::BallImpactor impactor_;
   fake::SpringStructure structure_;
@@ -114,8 +120,11 @@ ledger::Balance last_balance(Stage& stage) {
   return ledger.close(w.impactor_.back(), w.structure_.back(), sums.handed_over());
 }
 
-TEST(Session, RunsToTheEndAndSeesEverything) {
-  Stage stage;
+class WholeSession : public ::testing::TestWithParam<Path> {};
+INSTANTIATE_TEST_SUITE_P(, WholeSession, ::testing::Values(Path::hub, Path::shared), name_of_path);
+
+TEST_P(WholeSession, RunsToTheEndAndSeesEverything) {
+  Stage stage(GetParam());
   EXPECT_EQ(stage.run(), "");
   EXPECT_EQ(stage.plan_->impactor_steps, 4U);
   EXPECT_EQ(stage.plan_->windows, 50U);
@@ -130,12 +139,13 @@ TEST(Session, RunsToTheEndAndSeesEverything) {
   EXPECT_EQ(w.finished_, 1);
   EXPECT_EQ(stage.impactor_code_, 0);
   EXPECT_EQ(stage.structure_code_, 0);
+  EXPECT_EQ(stage.taken_, GetParam());
 }
 
 // A single one is that of the end: neither side sends one of the start, and nobody waits for it.
-TEST(Session, TakesAsManySnapshotsAsTheSceneAsksFor) {
+TEST_P(WholeSession, TakesAsManySnapshotsAsTheSceneAsksFor) {
   for (const int asked : {0, 1, 2, 7, 51}) {
-    Stage stage;
+    Stage stage(GetParam());
     stage.scene().mutable_output()->set_snapshots(static_cast<unsigned>(asked));
     EXPECT_EQ(stage.run(), "");
     EXPECT_EQ(stage.witness_.particles_, asked);
@@ -143,16 +153,16 @@ TEST(Session, TakesAsManySnapshotsAsTheSceneAsksFor) {
   }
 }
 
-TEST(Session, TheImpactHappensAndMomentumClosesAtUnequalSteps) {
-  Stage stage;
+TEST_P(WholeSession, TheImpactHappensAndMomentumClosesAtUnequalSteps) {
+  Stage stage(GetParam());
   ASSERT_EQ(stage.run(), "");
   const ledger::Balance b = last_balance(stage);
   EXPECT_GT(b.structure.change[1] * b.structure.change[1] + b.structure.support[1] * b.structure.support[1], 1.0);
   EXPECT_LT(b.momentum_error, 1e-13);
 }
 
-TEST(Session, NothingIsInFlightAtEqualSteps) {
-  Stage stage({}, {}, 1e-3);
+TEST_P(WholeSession, NothingIsInFlightAtEqualSteps) {
+  Stage stage(GetParam(), {}, {}, 1e-3);
   ASSERT_EQ(stage.run(), "");
   ASSERT_TRUE(stage.plan_->equal_steps());
   const ledger::Balance b = last_balance(stage);
@@ -160,16 +170,16 @@ TEST(Session, NothingIsInFlightAtEqualSteps) {
   EXPECT_LT(b.momentum_error, 1e-13);
 }
 
-TEST(Session, StructureSubstepsCloseToo) {
-  Stage stage({}, {}, 2e-3);
+TEST_P(WholeSession, StructureSubstepsCloseToo) {
+  Stage stage(GetParam(), {}, {}, 2e-3);
   ASSERT_EQ(stage.run(), "");
   EXPECT_EQ(stage.plan_->structure_steps, 2U);
   EXPECT_LT(last_balance(stage).momentum_error, 1e-13);
 }
 
-TEST(Session, TwoRunsAreTheSameBitForBit) {
-  Stage one;
-  Stage two;
+TEST_P(WholeSession, TwoRunsAreTheSameBitForBit) {
+  Stage one(GetParam());
+  Stage two(GetParam());
   ASSERT_EQ(one.run(), "");
   ASSERT_EQ(two.run(), "");
   for (std::size_t i = 0; i < one.witness_.forces_.size(); ++i) {
@@ -177,39 +187,71 @@ TEST(Session, TwoRunsAreTheSameBitForBit) {
   }
 }
 
-TEST(Session, BadInputOfAParticipantEndsBothSides) {
-  Stage stage({}, {.window = 3, .act = [] { throw InputError("no such layer"); }});
+TEST_P(WholeSession, BadInputOfAParticipantEndsBothSides) {
+  Stage stage(GetParam(), {}, {.window = 3, .act = [] { throw InputError("no such layer"); }});
   EXPECT_EQ(stage.run(), "input: structure: no such layer");
   EXPECT_EQ(stage.structure_code_, 2);
   EXPECT_EQ(stage.impactor_code_, 0) << "it was told to stop, and did";
 }
 
-TEST(Session, NumericalFailureOfAParticipantEndsBothSides) {
-  Stage stage({.window = 7, .act = [] { throw NumericalError("a particle passed through"); }}, {});
+TEST_P(WholeSession, NumericalFailureOfAParticipantEndsBothSides) {
+  Stage stage(GetParam(), {.window = 7, .act = [] { throw NumericalError("a particle passed through"); }}, {});
   EXPECT_EQ(stage.run(), "numerical: impactor: a particle passed through");
   EXPECT_EQ(stage.structure_code_, 0);
 }
 
 // The impactor reports window 6 only when the structure has failed in it: quicker or slower, the row is kept.
-TEST(Session, WhatTheOtherSideReportedBeforeAFailureIsKept) {
+TEST_P(WholeSession, WhatTheOtherSideReportedBeforeAFailureIsKept) {
   std::promise<void> failed;
-  Stage stage({.window = 6, .report = [&] { failed.get_future().wait(); }},
+  Stage stage(GetParam(), {.window = 6, .report = [&] { failed.get_future().wait(); }},
               {.window = 6, .act = [] { throw NumericalError("an element is inside out"); }});
   stage.structure_ended_ = [&] { failed.set_value(); };
   EXPECT_EQ(stage.run(), "numerical: structure: an element is inside out");
   EXPECT_EQ(stage.witness_.impactor_.back().window(), 6U);
 }
 
-TEST(Session, AFailureThatIsNobodysInputIsThePeers) {
-  Stage stage({.window = 7, .act = [] { throw std::logic_error("oops"); }}, {});
+TEST_P(WholeSession, AFailureThatIsNobodysInputIsThePeers) {
+  Stage stage(GetParam(), {.window = 7, .act = [] { throw std::logic_error("oops"); }}, {});
   EXPECT_THAT(stage.run(), HasSubstr("peer: impactor: "));
   EXPECT_EQ(stage.witness_.forces_.size(), 7U) << "what came before is kept";
 }
 
-TEST(Session, RefusesFixedStepsAfterTheModelsAreKnown) {
-  Stage stage;
+TEST_P(WholeSession, RefusesFixedStepsAfterTheModelsAreKnown) {
+  Stage stage(GetParam());
   stage.scene().mutable_steps()->mutable_structure()->set_seconds(0.1);
   EXPECT_THAT(stage.run(), HasSubstr("input: steps.structure"));
 }
+
+std::string run_with_one_that_cannot(Path path, Path& taken) {
+  Stage stage(path);
+  stage.impactor_shares_ = false;
+  std::string end = stage.run();
+  taken = stage.taken_;
+  return end;
+}
+
+TEST(SessionPath, IsThatThroughTheHubWhereOneSideCannotShareMemory) {
+  Path taken = Path::shared;
+  EXPECT_EQ(run_with_one_that_cannot(Path::shared_if_possible, taken), "");
+  EXPECT_EQ(taken, Path::hub);
+}
+
+TEST(SessionPath, IsRefusedWhereItWasAskedForAndOneSideCannot) {
+  Path taken = Path::shared;
+  EXPECT_THAT(run_with_one_that_cannot(Path::shared, taken),
+              HasSubstr("input: --path shared: the impactor (ball) cannot share memory with the other side"));
+}
+
+TEST(SessionPath, BothGiveTheSameBits) {
+  Stage hub(Path::hub);
+  Stage shared(Path::shared);
+  ASSERT_EQ(hub.run(), "");
+  ASSERT_EQ(shared.run(), "");
+  ASSERT_EQ(hub.witness_.forces_.size(), shared.witness_.forces_.size());
+  for (std::size_t i = 0; i < hub.witness_.forces_.size(); ++i) {
+    EXPECT_EQ(hub.witness_.forces_[i].SerializeAsString(), shared.witness_.forces_[i].SerializeAsString());
+  }
+}
+
 }  // namespace
 }  // namespace grainstep::orchestrator

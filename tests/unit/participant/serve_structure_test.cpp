@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "scripted_orchestrator.hpp"
+#include "transport/shared_channel.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -230,6 +234,58 @@ TEST_F(ServeStructure, while_it_runs_silence_is_borne_for_the_deadline_of_data) 
   talk.tell(start());
   EXPECT_EQ(talk.exit_code(), 4);
   EXPECT_EQ(talk.error_text(), "error: orchestrator: expected Forces of window 0, heard nothing for 0.01 s\n");
+}
+
+TEST_F(ServeStructure, shared_memory_that_is_not_there_is_said_with_what_to_do) {
+  auto& talk = orchestrator();
+  talk.hear<wire::Hello>();
+  talk.tell(setup());
+  talk.hear<wire::Ready>();
+  auto elsewhere = start();
+  elsewhere.mutable_shared_memory()->set_file("/dev/shm/grainstep-of-another-host/data");
+  talk.tell(elsewhere);
+  const auto error = talk.hear<wire::Error>();
+  EXPECT_EQ(error.kind(), wire::Error::BAD_INPUT);
+  EXPECT_NE(error.text().find("grainstep-of-another-host"), std::string::npos) << error.text();
+  EXPECT_NE(error.text().find("--path hub takes another way"), std::string::npos) << error.text();
+  EXPECT_EQ(talk.exit_code(), 2);
+}
+
+// The orchestrator has ended the run, the other side goes on and on. Who waits for no data looks at its orchestrator,
+// too.
+TEST_F(ServeStructure, stop_is_heard_while_data_come_over_shared_memory) {
+  using Way = transport::SharedPath::Way;
+  const transport::SharedPath path = transport::SharedPath::create(1000);
+  auto& talk = orchestrator();
+  talk.hear<wire::Hello>();
+  talk.tell(setup());
+  talk.hear<wire::Ready>();
+  auto endless = start();
+  endless.set_windows(1'000'000'000'000);
+  endless.set_report_every(1e12);
+  endless.set_snapshot_every(0.0);
+  endless.mutable_shared_memory()->set_file(path.file());
+  talk.tell(endless);
+  std::atomic<std::uint64_t> windows = 0;
+  std::jthread other([&](const std::stop_token& ended) {
+    transport::SharedChannel impactor(path, Way::forces, "structure", [] {});
+    wire::MessageChannel data(impactor, "structure");
+    transport::SharedChannel of_impactor(path, Way::forces, "impactor");
+    transport::SharedChannel of_structure(path, Way::kinematics, "structure");
+    transport::Bytes heard;
+    while (!ended.stop_requested()) {
+      data.send(forces(windows));
+      while (!ended.stop_requested() && data.receive(transport::in(std::chrono::milliseconds(20))) == nullptr) continue;
+      while (of_impactor.receive(heard, transport::Clock::now())) continue;
+      while (of_structure.receive(heard, transport::Clock::now())) continue;
+      ++windows;
+    }
+  });
+  talk.hear<wire::Report>();
+  while (windows < 1000) std::this_thread::yield();
+  talk.tell(stop());
+  talk.hear<wire::Finished>();
+  EXPECT_EQ(talk.exit_code(), 0);
 }
 
 // Nothing was built that could be started.
