@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <thread>
 
 #include "scripted_orchestrator.hpp"
@@ -256,6 +257,7 @@ TEST_F(ServeStructure, shared_memory_that_is_not_there_is_said_with_what_to_do) 
 TEST_F(ServeStructure, stop_is_heard_while_data_come_over_shared_memory) {
   using Way = transport::SharedPath::Way;
   const transport::SharedPath path = transport::SharedPath::create(1000);
+  backend.fail_at = std::numeric_limits<std::uint64_t>::max();
   auto& talk = orchestrator();
   talk.hear<wire::Hello>();
   talk.tell(setup());
@@ -282,7 +284,8 @@ TEST_F(ServeStructure, stop_is_heard_while_data_come_over_shared_memory) {
     }
   });
   talk.hear<wire::Report>();
-  while (windows < 1000) std::this_thread::yield();
+  const auto deadline = grainstep::testing::soon();
+  while (windows < 1000 && transport::Clock::now() < deadline) std::this_thread::yield();
   talk.tell(stop());
   talk.hear<wire::Finished>();
   EXPECT_EQ(talk.exit_code(), 0);
