@@ -9,7 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <thread>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "base/temporary_directory.hpp"
@@ -184,8 +186,12 @@ Figures between_processes(const Kind& kind, const std::string& directory, bool t
 }
 
 Figures between_threads(bool through_hub, int bytes, int samples) {
-  auto [driver, hub_first] = transport::make_in_process_pair();
-  auto [hub_second, answerer] = transport::make_in_process_pair();
+  std::unique_ptr<Channel> driver;
+  std::unique_ptr<Channel> hub_first;
+  std::unique_ptr<Channel> hub_second;
+  std::unique_ptr<Channel> answerer;
+  std::tie(driver, hub_first) = transport::make_in_process_pair();
+  std::tie(hub_second, answerer) = transport::make_in_process_pair();
   std::thread answering([&, end = through_hub ? answerer.get() : hub_first.get()] { answer(*end); });
   std::thread relaying([&] {
     if (through_hub) {

@@ -48,7 +48,8 @@ class PlainSlug {
   void create_particles(const dem::SlugModel& model) {
     const double radius = model.diameter / 2.0;
     const std::vector<double> diameters(model.particles, model.diameter);
-    auto centres = dem::pack_at_random({{{0.0, 0.0}}, {{model.half_width, model.height}}}, diameters, model.seed);
+    const dem::PackingBox box{{{0.0, 0.0}}, {{model.half_width, model.height}}};
+    auto centres = dem::pack_at_random(box, diameters, model.seed);
     contact::rest_on(surface::Polyline({{{-1.0, 0.0}}, {{1.0, 0.0}}}, {{0, 1}}), std::span(&radius, 1), centres);
     std::vector<int> id;
     const std::vector<int> type(centres.size(), 1);

@@ -16,7 +16,7 @@ constexpr long tick_ns = 1'000'000;
 
 /// Of a Kinematics, the longer one: two arrays, and what stands around them. A message that is too long by a few values
 /// still gets through, and is refused by whoever reads it.
-std::uint64_t longest_message(std::uint64_t values) { return 2 * 8 * (values + 64) + 256; }
+std::uint64_t longest_message(std::uint64_t values) { return 2 * sizeof(double) * (values + 64) + 256; }
 
 }  // namespace
 

@@ -67,7 +67,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
                        .structure = {hub.structure().introduced, hub.structure().finished}});
   });
   participants.start(supervision, directory.logs());
-  const Ending ending =
+  Ending ending =
       conduct(hub, {.preparation = preparation,
                     .directory = directory,
                     .deadlines = options.deadlines,
@@ -87,7 +87,7 @@ Ending run_to_its_end(const RunOptions& options, const Preparation& preparation,
   } catch (const InputError&) {
     throw;
   } catch (...) {
-    const Ending ending = ending_of_current_exception();
+    Ending ending = ending_of_current_exception();
     try {
       write_summary_of(ending, preparation, directory);
     } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <ostream>
 #include <string>
 
 #include "transport/channel.hpp"
@@ -19,6 +20,8 @@ struct Implementation {
   std::string name;
   std::function<ConnectedPair()> connect;
 };
+
+inline void PrintTo(const Implementation& one, std::ostream* out) { *out << one.name; }
 
 /// All of them; the list that the suite runs over.
 std::vector<Implementation> implementations();

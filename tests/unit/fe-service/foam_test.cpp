@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <random>
 
 #include "../../support/fe_block.hpp"
@@ -84,6 +85,8 @@ struct Case {
   int path;
   double rate;
 };
+
+void PrintTo(const Case& one, std::ostream* out) { *out << "path " << one.path << " at " << one.rate << "/s"; }
 
 class FoamPath : public testing::TestWithParam<Case> {};
 

@@ -9,6 +9,7 @@
 #include <future>
 #include <limits>
 #include <optional>
+#include <ostream>
 #include <sstream>
 #include <thread>
 
@@ -176,6 +177,8 @@ struct WrongReady {
   std::function<void(wire::Ready&)> change;
   const char* text;
 };
+
+void PrintTo(const WrongReady& one, std::ostream* out) { *out << one.name; }
 
 class WrongSurface : public Handshake, public ::testing::WithParamInterface<WrongReady> {};
 
