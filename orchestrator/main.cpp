@@ -1,35 +1,45 @@
-/// @file grainstep: run, check, show, study.
-#include <cstdio>
+/// @file grainstep: run, check, show. Its commands `study` and `conformance` are another program (study_main.cpp),
+/// which whoever wants a single run need not build (docs/decisions/0018-first-build.md).
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
 
 #include "base/error.hpp"
 #include "orchestrator/check_command.hpp"
-#include "orchestrator/conformance/conformance_command.hpp"
+#include "orchestrator/end_of_program.hpp"
 #include "orchestrator/options.hpp"
 #include "orchestrator/run_command.hpp"
 #include "orchestrator/show_command.hpp"
-#include "study/study_command.hpp"
+#include "process/launch.hpp"
 
 namespace {
 
-int fail(grainstep::ExitCode code, const std::exception& error) {
-  std::fprintf(stderr, "grainstep: %s\n", error.what());
-  return static_cast<int>(code);
+using namespace grainstep;
+
+std::string other_program() {
+  try {
+    return process::find_program("grainstep-study");
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + ". `study` and `conformance` are in it; `make build` builds all");
+  }
 }
 
-int act(const grainstep::orchestrator::CommandLine& line) {
-  if (line.run) {
-    return grainstep::orchestrator::run(*line.run);
-  }
-  if (line.study) {
-    return grainstep::study::study(*line.study);
-  }
-  if (line.conformance) {
-    return grainstep::conformance::conformance(*line.conformance);
-  }
+/// This process becomes the other program, with the same command line.
+[[noreturn]] void hand_on(char** argv) {
+  const std::string program = other_program();
+  ::execv(program.c_str(), argv);
+  throw std::system_error(errno, std::generic_category(), program);
+}
+
+int act(const orchestrator::CommandLine& line, char** argv) {
+  if (line.run) return orchestrator::run(*line.run);
+  if (line.study || line.conformance) hand_on(argv);
   if (line.check) {
-    grainstep::orchestrator::check(*line.check);
+    orchestrator::check(*line.check);
   } else if (line.show) {
-    grainstep::orchestrator::show(*line.show);
+    orchestrator::show(*line.show);
   }
   return line.exit_code.value_or(0);
 }
@@ -37,21 +47,5 @@ int act(const grainstep::orchestrator::CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using grainstep::ExitCode;
-  try {
-    return act(grainstep::orchestrator::parse(argc, argv));
-  } catch (const grainstep::InputError& error) {
-    return fail(ExitCode::bad_input, error);
-  } catch (const grainstep::NumericalError& error) {
-    return fail(ExitCode::numerical, error);
-  } catch (const grainstep::OutputError& error) {
-    return fail(ExitCode::output, error);
-  } catch (const grainstep::PeerError& error) {
-    return fail(ExitCode::peer, error);
-  } catch (const std::exception& error) {  // the system's refusals; caught, so that all that was made is cleaned away
-    return fail(ExitCode::unforeseen, error);
-  } catch (...) {
-    std::fputs("grainstep: an exception without a text. Please report this.\n", stderr);
-    return static_cast<int>(ExitCode::unforeseen);
-  }
+  return orchestrator::end_of_program([&] { return act(orchestrator::parse(argc, argv), argv); });
 }

@@ -1,4 +1,5 @@
 """What the programs say to command lines that cannot be meant: what was wrong, and what to write instead."""
+import shutil
 import unittest
 
 from runs import BIN, PATIENCE, QUICK, SOURCE, os, pathlib, subprocess, tempfile
@@ -24,6 +25,17 @@ class CommandLines(unittest.TestCase):
         self.assertEqual(ended.stdout, "")
         self.assertLessEqual(ended.stderr.count("\n"), lines, ended.stderr)
         self.assertEqual(list(self.place.iterdir()), [], "nothing was made")
+
+    def test_a_program_that_was_not_built_is_named_with_what_builds_it(self):
+        """`study` and `conformance` are in a program of their own, which `make demo` leaves out."""
+        with tempfile.TemporaryDirectory() as place:
+            alone = pathlib.Path(shutil.copy(BIN / "grainstep", place))
+            for command in (["study", "any.yaml"], ["conformance", "--role", "structure", "--", "any"]):
+                said = subprocess.run([alone, *command], capture_output=True, text=True, timeout=PATIENCE,
+                                      env={**os.environ, "PATH": "/usr/bin:/bin"})
+                self.assertEqual(said.returncode, 2, said.stderr)
+                self.assertIn("grainstep-study: no such program; looked for", said.stderr)
+                self.assertIn("`make build` builds all", said.stderr)
 
     def test_help_is_help(self):
         for program in PROGRAMS:
