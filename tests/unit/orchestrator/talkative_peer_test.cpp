@@ -4,22 +4,28 @@
 #include "base/error.hpp"
 #include "hand_played.hpp"
 #include "orchestrator/session.hpp"
+#include "patience.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
 
-/// Says Hello, then sends Forces for as long as it is listened to.
+/// Sends Forces for as long as it is listened to. For ever would never fail a test: after a long while it gives up.
 class Chatterbox final : public transport::Channel {
  public:
   void send(std::span<const std::byte> /*message*/) override {}
   [[nodiscard]] bool receive(transport::Bytes& message, transport::Deadline /*deadline*/) override {
+    gave_up_ = gave_up_ || transport::Clock::now() >= end_;
+    if (gave_up_) return false;
     const auto frame = encoder_.encode(wire::Forces());
     message.assign(frame.begin(), frame.end());
     return true;
   }
   [[nodiscard]] int wakeup() const override { return silent_.near_->wakeup(); }
+  [[nodiscard]] bool gave_up() const { return gave_up_; }
 
  private:
+  transport::Deadline end_ = grainstep::testing::soon();
+  bool gave_up_ = false;
   wire::Encoder encoder_;
   ByHand silent_{"impactor"};
 };
@@ -38,6 +44,7 @@ TEST_F(TalkativePeer, IsGivenUpAfterStop) {
   hub_.impactor().introduced = true;
   session.abandon("something else", "");
   EXPECT_TRUE(hub_.impactor().finished);
+  EXPECT_FALSE(impactor_.gave_up());
 }
 
 TEST_F(TalkativePeer, ItsLastWordsAreNotHeardForEver) {
@@ -45,6 +52,7 @@ TEST_F(TalkativePeer, ItsLastWordsAreNotHeardForEver) {
   EXPECT_THROW(hub_.run(
                    handler, [] { return false; }, Hub::within(60.0)),
                PeerError);
+  EXPECT_FALSE(impactor_.gave_up());
 }
 
 }  // namespace
