@@ -65,6 +65,9 @@ function(grainstep_precompile target kind)
     elseif(kind STREQUAL test)
       target_link_libraries(${pch} PRIVATE GTest::gtest GTest::gmock)
     endif()
+    # Not through ccache: where it has to preprocess, GCC takes the old precompiled header for the new one's text, and
+    # ccache the old one for the new.
+    set_target_properties(${pch} PROPERTIES CXX_COMPILER_LAUNCHER "")
     target_precompile_headers(${pch} PRIVATE ${GRAINSTEP_PCH_${kind}})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${pch})
