@@ -44,7 +44,7 @@ void Contacts<D>::follow(Neighbours<D>& neighbours, const Grains<D>& grains) {
 template <int D>
 void Contacts<D>::evaluate(Grains<D>& grains, const Neighbours<D>& neighbours, double grown) {
   const InnerList& inner = neighbours.inner();
-  near_.resize(std::max(near_.size(), inner.pair.size() + 1));
+  near_.resize(std::max(near_.size(), inner.pair.size() + lanes_at_once));
   const auto reach = static_cast<float>(2.0 * grains.largest_radius());
   const std::ptrdiff_t count = sweeps_.touching[D - 2](
       {grains.places(), inner.pair.data(), inner.number.data(), static_cast<std::ptrdiff_t>(inner.count), reach,

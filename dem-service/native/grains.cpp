@@ -22,7 +22,7 @@ Grains<D>::Grains(const SlugModel& model, const std::vector<PlacedParticle>& par
                   const std::vector<std::int32_t>& identities)
     : states_(particles.size()),
       forces_(particles.size() + 1),
-      places_(particles.size() * place_size<D>),
+      places_((particles.size() + lanes_at_once) * place_size<D>),
       identity_(identities),
       springs_(particles.size()),
       mixed_(!model.sizes.equal()) {

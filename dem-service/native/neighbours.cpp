@@ -96,7 +96,7 @@ std::int32_t Neighbours<D>::begin_of(const std::vector<std::int32_t>& begin, int
 template <int D>
 void Neighbours<D>::look(const Grains<D>& grains, std::int32_t grain, std::int32_t first, std::int32_t last) {
   if (first >= last) return;
-  const auto room = static_cast<std::size_t>(count_ + (last - first) + 1);
+  const auto room = static_cast<std::size_t>(count_ + (last - first)) + lanes_at_once;
   if (pairs_.size() < room) pairs_.resize(2 * room);
   count_ += sweeps_.near[D - 2]({grains.places(), reach_.data(), grain, first, last}, pairs_.data() + count_);
 }
@@ -170,7 +170,7 @@ void Neighbours<D>::rebuild(Grains<D>& grains, std::int32_t active, const std::v
   sort(grains, active, fast);
   grains.set_origin(cells_.low, active);
   const auto size = static_cast<std::size_t>(active);
-  reach_.resize(size);
+  reach_.resize(size + lanes_at_once);
   inner_reach_.resize(size);
   for (std::int32_t i = 0; i < active; ++i) {
     const auto n = static_cast<std::size_t>(i);
@@ -188,7 +188,7 @@ void Neighbours<D>::rebuild(Grains<D>& grains, std::int32_t active, const std::v
 
 template <int D>
 void Neighbours<D>::refresh(const Grains<D>& grains) {
-  const auto room = static_cast<std::size_t>(count_) + 1;
+  const auto room = static_cast<std::size_t>(count_) + lanes_at_once;
   if (inner_.number.size() < room) {
     inner_.number.resize(room + room / 2);
     inner_.pair.resize(room + room / 2);

@@ -3,6 +3,9 @@
 #include "dem-service/native/sweeps.hpp"
 
 #include "dem-service/native/rows.hpp"
+#ifdef __AVX2__
+#include "dem-service/native/eight.hpp"
+#endif
 
 namespace grainstep::dem::native {
 namespace {
@@ -67,6 +70,47 @@ double move_spheres(const Motion& m) {
   return fastest[0] + fastest[1] + fastest[2];
 }
 
+#ifdef __AVX2__
+
+/// The first `count` of eight lanes.
+[[gnu::always_inline]] inline int lanes_below(std::ptrdiff_t count) {
+  return count >= static_cast<std::ptrdiff_t>(lanes_at_once) ? 0xff : (1 << count) - 1;
+}
+
+template <int D, bool Own, bool Numbered>
+[[gnu::always_inline]] inline std::ptrdiff_t filter(const PairSearch& search, std::uint32_t* found) {
+  std::ptrdiff_t count = 0;
+  const __m256 slack = _mm256_set1_ps(search.slack);
+  __m256 within = squared(_mm256_set1_ps(search.reach + search.slack));
+  for (std::ptrdiff_t k = 0; k < search.count; k += lanes_at_once) {
+    const Pair* pairs = search.pairs + k;
+    if constexpr (Own) within = squared(_mm256_add_ps(summed_radii(search.radii, pairs), slack));
+    const int near = less(squared_distances<D>(search.places, pairs), within) & lanes_below(search.count - k);
+    const __m256i numbers = Numbered ? _mm256_loadu_si256(reinterpret_cast<const __m256i*>(search.numbers + k))
+                                     : counted_from(k);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(found + count), gathered(numbers, near));
+    count += __builtin_popcount(static_cast<unsigned>(near));
+  }
+  return count;
+}
+
+template <int D>
+std::ptrdiff_t near(const Candidates& c, Pair* found) {
+  std::ptrdiff_t count = 0;
+  const float* place = c.places + c.grain * place_size<D>;
+  const __m256 reach = _mm256_set1_ps(c.reach[c.grain]);
+  for (std::ptrdiff_t j = c.first; j < c.last; j += lanes_at_once) {
+    const __m256 within = squared(_mm256_add_ps(reach, _mm256_loadu_ps(c.reach + j)));
+    const __m256 apart = squared_distances_from<D>(place, c.places + j * place_size<D>);
+    const int set = less(apart, within) & lanes_below(c.last - j);
+    write_pairs(c.grain, gathered(counted_from(j), set), found + count);
+    count += __builtin_popcount(static_cast<unsigned>(set));
+  }
+  return count;
+}
+
+#else
+
 template <int D>
 [[gnu::always_inline]] inline float squared_distance(const float* a, const float* b) {
   const float dx = a[0] - b[0];
@@ -100,6 +144,21 @@ template <int D, bool Own, bool Numbered>
 }
 
 template <int D>
+std::ptrdiff_t near(const Candidates& c, Pair* found) {
+  std::ptrdiff_t count = 0;
+  const float* place = c.places + c.grain * place_size<D>;
+  const float reach = c.reach[c.grain];
+  for (std::ptrdiff_t j = c.first; j < c.last; ++j) {
+    const float both = reach + c.reach[j];
+    found[count] = {static_cast<std::int32_t>(c.grain), static_cast<std::int32_t>(j)};
+    count += squared_distance<D>(place, c.places + j * place_size<D>) < both * both ? 1 : 0;
+  }
+  return count;
+}
+
+#endif
+
+template <int D>
 std::ptrdiff_t touching(const PairSearch& search, std::uint32_t* found) {
   if (search.radii != nullptr) {
     return search.numbers != nullptr ? filter<D, true, true>(search, found) : filter<D, true, false>(search, found);
@@ -121,19 +180,6 @@ float displaced(const Displacement& d) {
     most = sum > most ? sum : most;
   }
   return most;
-}
-
-template <int D>
-std::ptrdiff_t near(const Candidates& c, Pair* found) {
-  std::ptrdiff_t count = 0;
-  const float* place = c.places + c.grain * place_size<D>;
-  const float reach = c.reach[c.grain];
-  for (std::ptrdiff_t j = c.first; j < c.last; ++j) {
-    const float both = reach + c.reach[j];
-    found[count] = {static_cast<std::int32_t>(c.grain), static_cast<std::int32_t>(j)};
-    count += squared_distance<D>(place, c.places + j * place_size<D>) < both * both ? 1 : 0;
-  }
-  return count;
 }
 
 }  // namespace

@@ -10,6 +10,9 @@
 
 namespace grainstep::dem::native {
 
+/// What is read and written in one go, whatever the instruction set: arrays have room for so many more.
+inline constexpr std::size_t lanes_at_once = 8;
+
 /// Grains [first, last) get their impulse and move on.
 struct Motion {
   double* rows = nullptr;               ///< as rows.hpp has them
@@ -56,12 +59,11 @@ struct Sweeps {
   const char* name;
   /// Returns a bound on the speed in the frame of all grains in the range, m/s squared. [dimension - 2]
   double (*move[2])(const Motion& motion);
-  /// Writes the numbers of pairs that are near enough to `found`, which has room for all and one more; returns how
-  /// many.
+  /// Writes the numbers of pairs that are near enough to `found`; returns how many.
   std::ptrdiff_t (*touching[2])(const PairSearch& search, std::uint32_t* found);
   /// The largest, m squared.
   float (*displaced[2])(const Displacement& displacement);
-  /// Writes the pairs of one grain with those within its reach to `found`, which has room for all and one more.
+  /// Writes the pairs of one grain with those within its reach to `found`; returns how many.
   std::ptrdiff_t (*near[2])(const Candidates& candidates, Pair* found);
 };
 
