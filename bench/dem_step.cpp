@@ -2,7 +2,9 @@
 /// in the native engine, against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that all
 /// see the same machine.
 ///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions] [native|lammps|plain for one alone]
-/// Times are CPU seconds of this process; the median of the repetitions counts.
+///                    [threads of the native one]
+/// Times are CPU seconds of this process, or with more than one thread those of the clock; the median of the
+/// repetitions counts.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -22,25 +24,26 @@ namespace {
 using namespace grainstep;
 using namespace grainstep::dem;
 
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 struct Job {
   wire::Setup setup;
   double dt = 0.0;
   std::uint64_t warm_up = 0;
   std::uint64_t steps = 0;
+  int threads = 1;
 };
+
+double seconds(const Job& job) {
+  timespec now{};
+  clock_gettime(job.threads > 1 ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 /// Reads the clock when the warm-up is over.
 class TimedLink final : public participant::ImpactorLink {
  public:
   TimedLink(const Job& job, rig::ScriptedLink& script) : job_(job), script_(script) {}
   const wire::Kinematics* surface(std::uint64_t window) override {
-    if (window == job_.warm_up) began_ = cpu_seconds();
+    if (window == job_.warm_up) began_ = seconds(job_);
     return script_.surface(window);
   }
   participant::Due due(std::uint64_t window) const override { return script_.due(window); }
@@ -60,7 +63,7 @@ void run_lammps(const Job& job, const wire::Start& start, participant::ImpactorL
 }
 
 void run_native(const Job& job, const wire::Start& start, participant::ImpactorLink& link) {
-  const auto impactor = native::make_impactor();
+  const auto impactor = native::make_impactor(job.threads);
   static_cast<void>(impactor->prepare(job.setup));
   impactor->run(start, link);
 }
@@ -74,15 +77,15 @@ double coupled(const Job& job, Engine engine) {
   rig::ScriptedLink script(job.setup, start, rig::at_rest());
   TimedLink link(job, script);
   engine(job, start, link);
-  return (cpu_seconds() - link.began()) / static_cast<double>(job.steps);
+  return (seconds(job) - link.began()) / static_cast<double>(job.steps);
 }
 
 double plain(const Job& job) {
   bench::PlainSlug slug(rig::model_of(job.setup), job.dt);
   slug.run(job.warm_up);
-  const double began = cpu_seconds();
+  const double began = seconds(job);
   slug.run(job.steps);
-  return (cpu_seconds() - began) / static_cast<double>(job.steps);
+  return (seconds(job) - began) / static_cast<double>(job.steps);
 }
 
 double median(std::vector<double> values) {
@@ -107,6 +110,7 @@ int main(int argc, char** argv) {
   job.warm_up = static_cast<std::uint64_t>(argument(2, 1500));
   job.steps = static_cast<std::uint64_t>(argument(3, 2000));
   const std::string only = argc > 5 ? argv[5] : "";
+  job.threads = static_cast<int>(argument(6, 1));
   const std::pair<std::string, std::function<double()>> engines[] = {
       {"plain", [&job] { return plain(job); }},
       {"lammps", [&job] { return coupled(job, run_lammps); }},

@@ -1,5 +1,7 @@
 #include "orchestrator/asking.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "orchestrator/participants.hpp"
 #include "orchestrator/session.hpp"
@@ -16,6 +18,8 @@ void leave_out(Peer& peer, bool external) { peer.introduced = peer.finished = ex
 std::optional<wire::Ready> answer_of(const Peer& peer, bool external) {
   return external ? std::nullopt : std::optional(peer.ready);
 }
+
+bool takes_threads(const Peer& peer) { return std::ranges::count(peer.hello.capabilities(), "threads") > 0; }
 
 }  // namespace
 
@@ -51,7 +55,9 @@ Answers ask(const scene::Scene& scene, std::uint64_t hash, const RunOptions& opt
     throw;
   }
   Answers answers{.impactor = answer_of(hub.impactor(), no_impactor),
-                  .structure = answer_of(hub.structure(), no_structure)};
+                  .structure = answer_of(hub.structure(), no_structure),
+                  .takes_threads = {.impactor = takes_threads(hub.impactor()),
+                                    .structure = takes_threads(hub.structure())}};
   supervision.end_all(patience_at_the_end);
   return answers;
 }

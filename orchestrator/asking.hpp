@@ -6,6 +6,7 @@
 
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
+#include "orchestrator/threads.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -13,6 +14,7 @@ namespace grainstep::orchestrator {
 struct Answers {
   std::optional<wire::Ready> impactor;
   std::optional<wire::Ready> structure;
+  TakesThreads takes_threads;
 };
 
 /// Throws what a participant's Error stands for (InputError for a scene that it cannot compute), PeerError for one that

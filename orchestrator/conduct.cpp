@@ -106,6 +106,7 @@ class Run {
                     .structure = hub_.structure().ready,
                     .impactor_timing = hub_.impactor().timing,
                     .structure_timing = hub_.structure().timing,
+                    .threads = how_.preparation.threads,
                     .path = session_.path() == Path::shared ? "shared" : "hub",
                     .wall_seconds = wall.count(),
                     .orchestrator_seconds = processor_seconds() - processor_at_start_});

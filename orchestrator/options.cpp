@@ -30,6 +30,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   add_scene(*run, options.scene);
   run->add_option("--out", options.out, "Directory of the results (default: runs/<name of the scene>)");
   run->add_option("--ranks", options.ranks, "MPI ranks of the impactor")->check(CLI::Range(1, 4096));
+  run->add_option("--threads", options.threads,
+                  "Threads of both participants together, where they can use them (default: one per core)")
+      ->check(CLI::Range(1, 4096));
   run->add_flag("--force", options.force, "Replace the run that is in the directory");
   run->add_flag("--quiet", options.quiet, "No progress, no summary on the terminal");
   run->add_option("--connect-deadline", options.deadlines.connect_s, "Seconds until both participants must be there")

@@ -19,6 +19,7 @@ struct RunOptions {
   SceneOptions scene;
   std::filesystem::path out;  ///< empty: runs/<name of the scene>
   int ranks = 1;              ///< of the impactor
+  int threads = 0;            ///< of both participants together; 0: as many as there are cores
   bool force = false;
   bool quiet = false;
   Deadlines deadlines;

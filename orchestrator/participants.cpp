@@ -83,12 +83,12 @@ void check_connection(const scene::Scene& scene, const RunOptions& options) {
   }
 }
 
-Participants::Participants(const scene::Scene& scene, const RunOptions& options)
+Participants::Participants(const scene::Scene& scene, const RunOptions& options, const ThreadShares& threads)
     : options_(options),
       impactor_{wire::IMPACTOR, is_external(wire::IMPACTOR, scene, options), scene::program_of(scene, wire::IMPACTOR),
-                scene.impactor().type() == scene::Impactor::TYPE_DECK, nullptr},
+                threads.impactor, scene.impactor().type() == scene::Impactor::TYPE_DECK, nullptr},
       structure_{wire::STRUCTURE, is_external(wire::STRUCTURE, scene, options),
-                 scene::program_of(scene, wire::STRUCTURE), false, nullptr} {
+                 scene::program_of(scene, wire::STRUCTURE), threads.structure, false, nullptr} {
   open(impactor_);
   open(structure_);
 }
@@ -125,6 +125,7 @@ void Participants::start(const Side& side, Supervision& supervision, const std::
                            .environment = {}};
   command.arguments.insert(command.arguments.end(), {"--connect", side.channel->endpoint()});
   if (side.deck) command.arguments.emplace_back("--allow-deck");
+  if (side.threads > 1) command.arguments.insert(command.arguments.end(), {"--threads", std::to_string(side.threads)});
   if (side.program.ranks) {
     command = process::mpi_command(options_.ranks, std::move(command));
   }

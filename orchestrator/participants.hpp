@@ -8,6 +8,7 @@
 #include "base/temporary_directory.hpp"
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
+#include "orchestrator/threads.hpp"
 #include "orchestrator/supervision.hpp"
 #include "scene/needs.hpp"
 #include "transport/zmq_channel.hpp"
@@ -33,7 +34,7 @@ void check_deck(const scene::Scene& scene, const RunOptions& options);  ///< the
 class Participants {
  public:
   /// Opens both endpoints. InputError when one cannot be had.
-  Participants(const scene::Scene& scene, const RunOptions& options);
+  Participants(const scene::Scene& scene, const RunOptions& options, const ThreadShares& threads = {});
 
   [[nodiscard]] transport::Channel& impactor() { return *impactor_.channel; }
   [[nodiscard]] transport::Channel& structure() { return *structure_.channel; }
@@ -52,6 +53,7 @@ class Participants {
     wire::Role role;
     bool external;
     scene::Program program;
+    int threads;  ///< more than one only where it takes them
     bool deck;  ///< it will run a script, and was allowed to
     std::unique_ptr<transport::ZmqChannel> channel;
   };

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "orchestrator/asking.hpp"
 #include "orchestrator/participants.hpp"
 #include "scene/load.hpp"
@@ -45,6 +46,9 @@ void ask_participants(Preparation& p, const RunOptions& options) {
   if (p.impactor && is_of_particles(*p.impactor)) p.groups = scene::groups(p.scene, p.impactor->mass());
   if (p.impactor && p.structure) {
     p.plan = plan_steps(p.scene, p.groups.end, steps_of(*p.impactor), steps_of(*p.structure));
+  }
+  if (const auto cost = cost_of(p)) {
+    p.threads = share_threads(options.threads > 0 ? options.threads : base::usable_cores(), *cost, answers.takes_threads);
   }
 }
 

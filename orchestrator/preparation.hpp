@@ -10,6 +10,7 @@
 #include "grainstep/wire.pb.h"
 #include "orchestrator/options.hpp"
 #include "orchestrator/step_plan.hpp"
+#include "orchestrator/threads.hpp"
 #include "scene/groups.hpp"
 #include "scene/rules.hpp"
 
@@ -24,6 +25,7 @@ struct Preparation {
   std::optional<wire::Ready> impactor;   ///< as it said when asked; nullopt: external
   std::optional<wire::Ready> structure;  ///< the same
   std::optional<StepPlan> plan;          ///< nullopt: an external side will say its steps
+  ThreadShares threads;
 };
 
 /// Throws InputError for everything about a scene that can be known to be wrong, PeerError for a participant that does
@@ -46,11 +48,7 @@ void print_warnings(const StepPlan& plan, const std::string& of = "");
 /// Whether what it counts are particles, and it has some: their mass is that of the groups.
 [[nodiscard]] bool is_of_particles(const wire::Ready& ready);
 
-/// Seconds that both sides compute, each on a core of its own; nothing where an external side does not say.
-struct Cost {
-  double impactor = 0.0;
-  double structure = 0.0;
-};
+/// Of both sides; nothing where an external one does not say.
 [[nodiscard]] std::optional<Cost> cost_of(const Preparation& preparation);
 
 }  // namespace grainstep::orchestrator

@@ -57,7 +57,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
       throw Interrupted();
     }
   });
-  Participants participants(preparation.scene, options);
+  Participants participants(preparation.scene, options, preparation.threads);
   Supervision supervision(loop);
   Hub hub(participants.impactor(), participants.structure(), loop, [&supervision, &participants, &hub] {
     if (hub.impactor().introduced && hub.structure().introduced) {

@@ -95,6 +95,7 @@ Json summary(const SummaryInput& in) {
   out["impactor_step"] = in.plan ? number(in.plan->impactor_step) : Json(nullptr);
   out["structure_step"] = in.plan ? number(in.plan->structure_step) : Json(nullptr);
   out["path"] = in.path;
+  out["threads"] = {{"impactor", in.threads.impactor}, {"structure", in.threads.structure}};
   out["wall_seconds"] = in.wall_seconds;
   out["wall_split"] = split_of(in);
   out["processor_seconds"] = in.impactor_timing.processor() + in.structure_timing.processor() + in.orchestrator_seconds;

@@ -7,6 +7,7 @@
 
 #include "grainstep/wire.pb.h"
 #include "orchestrator/recorder.hpp"
+#include "orchestrator/threads.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -22,6 +23,7 @@ struct SummaryInput {
   wire::Ready structure;
   wire::Timing impactor_timing;
   wire::Timing structure_timing;
+  ThreadShares threads = {};
   std::string path = "hub";  ///< of Forces and Kinematics: hub, shared
   double wall_seconds = 0.0;
   double orchestrator_seconds = 0.0;  ///< processor time of the orchestrator itself
@@ -31,8 +33,8 @@ struct SummaryInput {
 /// numbers than before (a law, a scheme, a default of the code's own): studies then compute again what they have
 /// (docs/decisions/0010-studies.md). Restructuring, speed and new kinds of scenes leave it alone.
 // 2: energy and steps of foams. 3: contact over chords, windows of free targets, scales and impulses of what is there,
-// evenly spread rows.
-inline constexpr int results_version = 3;
+// evenly spread rows. 4: the native engine sums forces of more than 2048 grains block by block.
+inline constexpr int results_version = 4;
 
 /// A hash as summary.json holds it: 16 hexadecimal digits, because a JSON number has no 64 bits.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);

@@ -26,6 +26,10 @@ void Program::option(const std::string& name, const std::string& text, std::stri
   options_.push_back({.name = name, .text = text, .value = &value, .choices = std::move(choices)});
 }
 
+void Program::number(const std::string& name, const std::string& text, int& value, int least, int most) {
+  numbers_.push_back({.name = name, .text = text, .value = &value, .least = least, .most = most});
+}
+
 void Program::flag(const std::string& name, const std::string& text, bool& value) {
   flags_.push_back({.name = name, .text = text, .value = &value});
 }
@@ -36,6 +40,11 @@ std::optional<int> Program::parse(int argc, const char* const* argv) {
   for (Option& one : options_) {
     CLI::Option* added = app.add_option("--" + one.name, *one.value, one.text);
     if (!one.choices.empty()) added->check(CLI::IsMember(one.choices));
+  }
+  for (Number& one : numbers_) {
+    app.add_option("--" + one.name, *one.value, one.text)
+        ->check(CLI::Range(one.least, one.most))
+        ->capture_default_str();
   }
   for (Flag& one : flags_) app.add_flag("--" + one.name, *one.value, one.text);
   app.set_version_flag("--version", version_);

@@ -27,6 +27,9 @@ class Program {
   void option(const std::string& name, const std::string& text, std::string& value,
               std::vector<std::string> choices = {});
 
+  /// The same for a whole number in [least, most].
+  void number(const std::string& name, const std::string& text, int& value, int least, int most);
+
   void flag(const std::string& name, const std::string& text, bool& value);
 
   /// The exit code where the command line was answered already (--help, --version) or cannot be used (it was said why).
@@ -45,6 +48,12 @@ class Program {
     std::string* value;
     std::vector<std::string> choices;
   };
+  struct Number {
+    std::string name;
+    std::string text;
+    int* value;
+    int least, most;
+  };
   struct Flag {
     std::string name;
     std::string text;
@@ -52,6 +61,7 @@ class Program {
   };
   std::string name_, version_, text_;
   std::vector<Option> options_;
+  std::vector<Number> numbers_;
   std::vector<Flag> flags_;
   ConnectOptions connect_;
 };

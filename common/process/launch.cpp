@@ -1,6 +1,5 @@
 #include "process/launch.hpp"
 
-#include <sched.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -8,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
 
 namespace grainstep::process {
 namespace {
@@ -25,13 +25,6 @@ std::optional<fs::path> in_path(const std::string& name) {
     }
   }
   return std::nullopt;
-}
-
-/// Cores that this process may use; a container or batch system may have granted fewer than the machine has.
-int usable_cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
 void add_open_mpi_environment(Command& command) {
@@ -76,7 +69,7 @@ Command mpi_command(int ranks, Command command) {
   run.environment = command.environment;
   // Not bound to cores: the other participant and the orchestrator share them, and the kernel knows which are free.
   run.arguments = {"-np", std::to_string(ranks), "--bind-to", "none"};
-  if (ranks > usable_cores()) {
+  if (ranks > base::usable_cores()) {
     run.arguments.emplace_back("--oversubscribe");
   }
   if (const auto setpriv = in_path("setpriv")) {

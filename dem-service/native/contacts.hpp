@@ -1,5 +1,5 @@
-/// @file Contacts between grains: those of PairContacts, whose histories follow the grains when these are put in
-/// another order.
+/// @file Contacts between grains: those of PairContacts, one for each block, whose histories follow the grains when these
+/// are put in another order.
 #pragma once
 
 #include <cstdint>
@@ -13,28 +13,35 @@ namespace grainstep::dem::native {
 template <int D>
 class Contacts {
  public:
-  Contacts(const PairLaw& law, const PairFeatures& features, const Sweeps& sweeps, const Grains<D>& grains);
+  Contacts(const PairLaw& law, const PairFeatures& features, const Grains<D>& grains, const Blocks& most);
 
-  /// The list is a new one, and order[n] says where the grain that stands at n stood before: histories move along.
-  void follow(Neighbours<D>& neighbours, const Grains<D>& grains);
+  /// The lists are new ones, and order[n] says where the grain that stands at n stood before: histories move along.
+  void follow(base::Team& team, const Neighbours<D>& neighbours, const Grains<D>& grains);
 
   /// Adds forces and torques. `grown`: s since the last step; 0 at the start.
-  void evaluate(Grains<D>& grains, const Neighbours<D>& neighbours, double grown);
+  void evaluate(base::Team& team, Grains<D>& grains, Neighbours<D>& neighbours, double grown);
 
-  [[nodiscard]] const PairEnergy& energy() const { return contacts_.energy(); }
-  [[nodiscard]] const PairContacts& all() const { return contacts_; }
+  [[nodiscard]] PairEnergy energy() const;
+
+  /// The pairs that touch, for tests.
+  [[nodiscard]] std::vector<Pair> touching() const;
 
  private:
   struct Kept {
+    std::int32_t pair;  ///< in the list of its block; -1: nobody looks after it any more
+    std::int32_t block;
     double value[most_history_values];
   };
+  struct Block {
+    PairContacts contacts;
+    std::vector<Kept> kept;               ///< of the contacts that were this block's, for whoever has them now
+    std::vector<const Kept*> kept_of;     ///< of each pair of the new list; nullptr: it did not touch
+  };
 
-  const Sweeps& sweeps_;
-  PairContacts contacts_;
-  std::vector<std::uint32_t> near_;
+  void keep(Block& block, const Neighbours<D>& neighbours);
+
+  std::vector<Block> blocks_;
   std::vector<std::int32_t> place_of_;
-  std::vector<Kept> kept_;
-  std::vector<std::int32_t> kept_of_;  ///< of each pair of the new list; -1: it did not touch
 };
 
 }  // namespace grainstep::dem::native

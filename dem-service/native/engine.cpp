@@ -47,8 +47,11 @@ template <int D>
 class Run {
  public:
   Run(const SlugModel& model, const wire::ImpactorSetup& setup, const wire::Start& start,
-      participant::ImpactorLink& link, const Watch& watch, std::vector<PlacedParticle> particles)
+      participant::ImpactorLink& link, const Watch& watch, int threads, std::vector<PlacedParticle> particles)
       : watch_(watch),
+        team_(std::min(threads, Blocks{static_cast<std::int32_t>(particles.size()),
+                                       native::block_size(static_cast<std::int32_t>(particles.size()))}
+                                    .count())),
         start_(start),
         dt_(start.window() / start.impactor_steps()),
         diameter_(model.diameter),
@@ -59,7 +62,8 @@ class Run {
         inner_allowance_{inner_share * allowance_.slow, inner_share * allowance_.fast},
         refreshable_{allowance_.slow - inner_allowance_.slow, allowance_.fast - inner_allowance_.fast},
         neighbours_(sweeps_, allowance_, inner_allowance_),
-        contacts_(pair_law(law_), features_of<D>(model), sweeps_, grains_),
+        block_size_(native::block_size(grains_.count())),
+        contacts_(pair_law(law_), features_of<D>(model), grains_, {grains_.count(), block_size_}),
         exchange_(&link, MovingSurface(setup.surface()).node_count()),
         driver_(model, start, {.dt = dt_, .margin = model.diameter}, MovingSurface(setup.surface()), exchange_) {}
 
@@ -84,18 +88,41 @@ class Run {
 
   void move(std::uint64_t n) {
     const double kick = n == 1 ? dt_ / 2.0 : dt_;
-    const std::int32_t slow = neighbours_.slow();
-    used_.slow += dt_ * grains_.move(sweeps_, 0, slow, frame_, kick, dt_);
-    used_.fast += dt_ * grains_.move(sweeps_, slow, flight_.awake(), frame_, kick, dt_);
+    const Allowance speed = most([&](std::int32_t first, std::int32_t last) {
+      return grains_.move(sweeps_, first, last, frame_, kick, dt_);
+    });
+    used_.slow += dt_ * speed.slow;
+    used_.fast += dt_ * speed.fast;
     const Vec3 shift = (time_of(n) - built_at_) * frame_;
     if (something_near_sleepers(n)) return rebuild(n);
     if (used_.within(inner_allowance_) && within_margin(shift)) return;
     // A sum of largest speeds is more than anyone has moved: look. The whole list must hold what the inner one will.
-    moved_ = {grains_.displaced(sweeps_, 0, slow, shift), grains_.displaced(sweeps_, slow, flight_.awake(), shift)};
+    moved_ = most([&](std::int32_t first, std::int32_t last) {
+      return grains_.displaced(sweeps_, first, last, shift);
+    });
     used_ = {};
     if (!moved_.within(refreshable_) || !within_margin(shift)) return rebuild(n);
-    neighbours_.refresh(grains_);
+    neighbours_.refresh(team_, grains_);
   }
+
+  /// The largest value of `of(first, last)` among the slow and the fast grains, block by block.
+  template <typename Of>
+  Allowance most(Of&& of) {
+    const Blocks& blocks = neighbours_.blocks();
+    of_blocks_.resize(static_cast<std::size_t>(blocks.count()));
+    team_.each(blocks.count(), [&](std::int32_t block) {
+      const std::int32_t first = blocks.first(block);
+      const std::int32_t last = blocks.last(block);
+      const std::int32_t fast = std::clamp(neighbours_.slow(), first, last);
+      of_blocks_[static_cast<std::size_t>(block)] = {of(first, fast), of(fast, last)};
+    });
+    Allowance out;
+    for (const Allowance& one : of_blocks_) out = {larger(out.slow, one.slow), larger(out.fast, one.fast)};
+    return out;
+  }
+
+  /// Not a number where one of them is not.
+  static double larger(double a, double b) { return a > b ? a : (std::isnan(a) ? a : b); }
 
   /// Contact with the surface is looked for among those that were near it when the list was made.
   [[nodiscard]] bool within_margin(const Vec3& shift) const {
@@ -177,10 +204,9 @@ class Run {
     wake(time);
     frame_ = mean_velocity();
     choose_fast();
-    neighbours_.rebuild(grains_, flight_.awake(), fast_);
-    contacts_.follow(neighbours_, grains_);
+    neighbours_.rebuild(team_, grains_, {flight_.awake(), block_size_}, fast_);
+    contacts_.follow(team_, neighbours_, grains_);
     front_slow_ = front_of(0, neighbours_.slow(), time);
-    grains_.remember_places(flight_.awake());
     used_ = moved_ = {};
     built_at_ = time;
     driver_.rebuild(arrays());
@@ -189,7 +215,7 @@ class Run {
   void forces(std::uint64_t n) {
     driver_.before_pair_forces(n, arrays());
     if (driver_.ended()) return;
-    contacts_.evaluate(grains_, neighbours_, n == 0 ? 0.0 : dt_);
+    contacts_.evaluate(team_, grains_, neighbours_, n == 0 ? 0.0 : dt_);
     driver_.after_pair_forces(n, arrays());
     if (driver_.ended()) return;
     if (watch_) show(n);
@@ -216,7 +242,8 @@ class Run {
 
   void show(std::uint64_t n) {
     place_sleepers(flight_.awake(), grains_.count(), time_of(n));
-    watch_({n, grains_.arrays(grains_.count()), &contacts_.all()});
+    const std::vector<Pair> touching = contacts_.touching();
+    watch_({n, grains_.arrays(grains_.count()), touching});
   }
 
   void look_at(std::int32_t i) {
@@ -226,6 +253,7 @@ class Run {
 
   const Sweeps& sweeps_ = *available_sweeps().front();
   const Watch& watch_;
+  base::Team team_;
   wire::Start start_;
   double dt_;
   double diameter_;
@@ -234,6 +262,7 @@ class Run {
   Grains<D> grains_;
   Allowance allowance_, inner_allowance_, refreshable_;
   Neighbours<D> neighbours_;
+  std::int32_t block_size_;
   Contacts<D> contacts_;
   Exchange exchange_;
   StepDriver driver_;
@@ -243,6 +272,7 @@ class Run {
   Allowance used_;           ///< m, a bound on what they have moved since then
   double front_slow_ = 0.0;  ///< m, of the slow ones when the list was made
   double built_at_ = 0.0;    ///< s
+  std::vector<Allowance> of_blocks_;  ///< slow and fast ones of each
   std::vector<std::uint8_t> fast_, marked_;
   std::vector<double> speed_;  ///< squared, in the frame
   std::vector<std::pair<std::int32_t, typename Grains<D>::Speeds>> looked_at_;
@@ -251,30 +281,31 @@ class Run {
 template <int D>
 class EngineOf final : public Engine {
  public:
-  EngineOf(const SlugModel& model, wire::ImpactorSetup setup, std::vector<PlacedParticle> particles)
-      : model_(model), setup_(std::move(setup)), particles_(std::move(particles)) {}
+  EngineOf(const SlugModel& model, wire::ImpactorSetup setup, int threads, std::vector<PlacedParticle> particles)
+      : model_(model), setup_(std::move(setup)), threads_(threads), particles_(std::move(particles)) {}
 
   void run(const wire::Start& start, participant::ImpactorLink& link) override {
-    Run<D>(model_, setup_, start, link, watch_, particles_).run();
+    Run<D>(model_, setup_, start, link, watch_, threads_, particles_).run();
   }
 
  private:
   SlugModel model_;
   wire::ImpactorSetup setup_;
+  int threads_;
   std::vector<PlacedParticle> particles_;
 };
 
 }  // namespace
 
 std::unique_ptr<Engine> make_engine(const SlugModel& model, const wire::ImpactorSetup& setup,
-                                    std::vector<PlacedParticle> particles) {
+                                    std::vector<PlacedParticle> particles, int threads) {
   if (particles.size() > std::numeric_limits<std::int32_t>::max()) {
     throw InputError("impactor.slug: more than 2^31 particles");
   }
   SlugModel of_these = model;
   of_these.particles = particles.size();
-  if (model.spheres()) return std::make_unique<EngineOf<3>>(of_these, setup, std::move(particles));
-  return std::make_unique<EngineOf<2>>(of_these, setup, std::move(particles));
+  if (model.spheres()) return std::make_unique<EngineOf<3>>(of_these, setup, threads, std::move(particles));
+  return std::make_unique<EngineOf<2>>(of_these, setup, threads, std::move(particles));
 }
 
 }  // namespace grainstep::dem::native

@@ -3,10 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "contact/particle_arrays.hpp"
-#include "dem-service/pair/contacts.hpp"
+#include "dem-service/pair/pair.hpp"
 #include "dem-service/slug_layout.hpp"
 #include "participant/backend.hpp"
 
@@ -17,7 +18,7 @@ namespace grainstep::dem::native {
 struct View {
   std::uint64_t step = 0;
   contact::ParticleArrays grains;
-  const PairContacts* contacts = nullptr;
+  std::span<const Pair> touching;
 };
 using Watch = std::function<void(const View& view)>;
 
@@ -34,8 +35,8 @@ class Engine {
   Watch watch_;
 };
 
-/// Discs or spheres, as the model says.
+/// Discs or spheres, as the model says. Results do not depend on the number of threads.
 [[nodiscard]] std::unique_ptr<Engine> make_engine(const SlugModel& model, const wire::ImpactorSetup& setup,
-                                                  std::vector<PlacedParticle> particles);
+                                                  std::vector<PlacedParticle> particles, int threads = 1);
 
 }  // namespace grainstep::dem::native

@@ -6,13 +6,23 @@
 namespace grainstep::dem::native {
 namespace {
 
+constexpr std::int32_t grains_at_once = 4096;
+
 /// The first of `values` in a new order, through a copy that is kept.
 template <typename T>
-void rearrange(std::vector<T>& values, const std::vector<std::int32_t>& order) {
-  static thread_local std::vector<T> copy;
-  copy.resize(order.size());
-  for (std::size_t n = 0; n < order.size(); ++n) copy[n] = values[static_cast<std::size_t>(order[n])];
-  std::copy(copy.begin(), copy.end(), values.begin());
+void rearrange(base::Team& team, std::vector<T>& values, const std::vector<std::int32_t>& order) {
+  static thread_local std::vector<T> buffer;
+  buffer.resize(order.size());
+  std::vector<T>& copy = buffer;  // this thread's, for all
+  const Blocks parts{static_cast<std::int32_t>(order.size()), grains_at_once};
+  team.each(parts.count(), [&](std::int32_t part) {
+    for (auto n = static_cast<std::size_t>(parts.first(part)); n < static_cast<std::size_t>(parts.last(part)); ++n) {
+      copy[n] = values[static_cast<std::size_t>(order[n])];
+    }
+  });
+  team.each(parts.count(), [&](std::int32_t part) {
+    std::copy(copy.begin() + parts.first(part), copy.begin() + parts.last(part), values.begin() + parts.first(part));
+  });
 }
 
 }  // namespace
@@ -73,24 +83,32 @@ contact::ParticleArrays Grains<D>::arrays(std::int32_t owned) {
 }
 
 template <int D>
-void Grains<D>::reorder(const std::vector<std::int32_t>& order) {
-  rearrange(states_, order);
-  rearrange(identity_, order);
-  rearrange(springs_, order);
+void Grains<D>::reorder(base::Team& team, const std::vector<std::int32_t>& order) {
+  rearrange(team, states_, order);
+  rearrange(team, identity_, order);
+  rearrange(team, springs_, order);
   if (!mixed_) return;
-  rearrange(radius_, order);
-  rearrange(mass_, order);
-  rearrange(per_mass_, order);
-  rearrange(per_inertia_, order);
-  rearrange(float_radius_, order);
+  rearrange(team, radius_, order);
+  rearrange(team, mass_, order);
+  rearrange(team, per_mass_, order);
+  rearrange(team, per_inertia_, order);
+  rearrange(team, float_radius_, order);
 }
 
 template <int D>
-void Grains<D>::set_origin(const double* origin, std::int32_t known) {
+void Grains<D>::set_origin(base::Team& team, const double* origin, std::int32_t known) {
   std::copy_n(origin, D, origin_);
-  for (std::ptrdiff_t i = 0; i < known; ++i) {
-    for (int c = 0; c < D; ++c) places_[i * place_size<D> + c] = static_cast<float>(position(i)[c] - origin_[c]);
-  }
+  remembered_.resize(places_.size());
+  const Blocks parts{known, grains_at_once};
+  team.each(parts.count(), [&](std::int32_t part) {
+    for (std::ptrdiff_t i = parts.first(part); i < parts.last(part); ++i) {
+      for (std::ptrdiff_t c = 0; c < D; ++c) {
+        const auto place = static_cast<float>(position(i)[c] - origin_[c]);
+        places_[static_cast<std::size_t>(i * place_size<D> + c)] = place;
+        remembered_[static_cast<std::size_t>(i * place_size<D> + c)] = place;
+      }
+    }
+  });
 }
 
 template <int D>
@@ -111,11 +129,6 @@ double Grains<D>::move(const Sweeps& sweeps, std::int32_t first, std::int32_t la
   motion.first = first;
   motion.last = last;
   return std::sqrt(sweeps.move[D - 2](motion));
-}
-
-template <int D>
-void Grains<D>::remember_places(std::int32_t known) {
-  remembered_.assign(places_.begin(), places_.begin() + known * place_size<D>);
 }
 
 template <int D>

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/particle_arrays.hpp"
+#include "dem-service/native/blocks.hpp"
 #include "dem-service/native/rows.hpp"
 #include "dem-service/native/sweeps.hpp"
 #include "dem-service/pair/contacts.hpp"
@@ -52,18 +53,16 @@ class Grains {
   }
 
   /// What stood at order[n] stands at n, for the first order.size() of them. Forces must be zero there.
-  void reorder(const std::vector<std::int32_t>& order);
+  void reorder(base::Team& team, const std::vector<std::int32_t>& order);
 
-  /// Places are counted from here on; those of the first `known` are brought up to date.
-  void set_origin(const double* origin, std::int32_t known);
+  /// Places are counted from here on; those of the first `known` are brought up to date, and kept to be compared with.
+  void set_origin(base::Team& team, const double* origin, std::int32_t known);
 
   /// Kick and drift of [first, last); returns a bound on their speed against `frame`, m/s.
   double move(const Sweeps& sweeps, std::int32_t first, std::int32_t last, const surface::Vec3& frame, double kick,
               double drift);
 
-  /// Places as they are now, to be compared with later.
-  void remember_places(std::int32_t known);
-  /// m, the largest way of [first, last) since then in a frame that has moved by `shift` (m).
+  /// m, the largest way of [first, last) since set_origin() in a frame that has moved by `shift` (m).
   [[nodiscard]] double displaced(const Sweeps& sweeps, std::int32_t first, std::int32_t last,
                                  const surface::Vec3& shift) const;
 

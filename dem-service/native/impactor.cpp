@@ -34,9 +34,11 @@ void require_drivable(const wire::Start& start) {
 
 class Impactor final : public participant::ImpactorBackend {
  public:
+  explicit Impactor(int threads) : threads_(threads) {}
+
   [[nodiscard]] wire::Hello describe() const override {
     wire::Hello hello = participant::hello(wire::IMPACTOR, "grainstep-grains (native)", GRAINSTEP_VERSION, {2});
-    for (const char* word : {"slug", "plane_strain", "axisymmetric", "size_distribution", "tension_cutoff"})
+    for (const char* word : {"slug", "plane_strain", "axisymmetric", "size_distribution", "tension_cutoff", "threads"})
       hello.add_capabilities(word);
     return hello;
   }
@@ -56,7 +58,8 @@ class Impactor final : public participant::ImpactorBackend {
     if (setup.preview()) return ready;
     const SlugModel model = slug_model_of(setup);
     engine_ =
-        make_engine(model, setup.impactor(), lay_out(model, contact::MovingSurface(setup.impactor().surface()).now()));
+        make_engine(model, setup.impactor(), lay_out(model, contact::MovingSurface(setup.impactor().surface()).now()),
+                    threads_);
     return ready;
   }
 
@@ -67,11 +70,14 @@ class Impactor final : public participant::ImpactorBackend {
   }
 
  private:
+  int threads_;
   std::unique_ptr<Engine> engine_;
 };
 
 }  // namespace
 
-std::unique_ptr<participant::ImpactorBackend> make_impactor() { return std::make_unique<Impactor>(); }
+std::unique_ptr<participant::ImpactorBackend> make_impactor(int threads) {
+  return std::make_unique<Impactor>(threads);
+}
 
 }  // namespace grainstep::dem::native

@@ -7,6 +7,6 @@
 
 namespace grainstep::dem::native {
 
-[[nodiscard]] std::unique_ptr<participant::ImpactorBackend> make_impactor();
+[[nodiscard]] std::unique_ptr<participant::ImpactorBackend> make_impactor(int threads = 1);
 
 }  // namespace grainstep::dem::native

@@ -82,10 +82,10 @@ template <int D, bool Own, bool Numbered>
   std::ptrdiff_t count = 0;
   const __m256 slack = _mm256_set1_ps(search.slack);
   __m256 within = squared(_mm256_set1_ps(search.reach + search.slack));
-  for (std::ptrdiff_t k = 0; k < search.count; k += lanes_at_once) {
+  for (std::ptrdiff_t k = search.first; k < search.last; k += lanes_at_once) {
     const Pair* pairs = search.pairs + k;
     if constexpr (Own) within = squared(_mm256_add_ps(summed_radii(search.radii, pairs), slack));
-    const int near = less(squared_distances<D>(search.places, pairs), within) & lanes_below(search.count - k);
+    const int near = less(squared_distances<D>(search.places, pairs), within) & lanes_below(search.last - k);
     const __m256i numbers = Numbered ? _mm256_loadu_si256(reinterpret_cast<const __m256i*>(search.numbers + k))
                                      : counted_from(k);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(found + count), gathered(numbers, near));
@@ -99,12 +99,15 @@ std::ptrdiff_t near(const Candidates& c, Pair* found) {
   std::ptrdiff_t count = 0;
   const float* place = c.places + c.grain * place_size<D>;
   const __m256 reach = _mm256_set1_ps(c.reach[c.grain]);
-  for (std::ptrdiff_t j = c.first; j < c.last; j += lanes_at_once) {
-    const __m256 within = squared(_mm256_add_ps(reach, _mm256_loadu_ps(c.reach + j)));
-    const __m256 apart = squared_distances_from<D>(place, c.places + j * place_size<D>);
-    const int set = less(apart, within) & lanes_below(c.last - j);
-    write_pairs(c.grain, gathered(counted_from(j), set), found + count);
-    count += __builtin_popcount(static_cast<unsigned>(set));
+  for (int r = 0; r < c.count; ++r) {
+    const Range range = c.ranges[r];
+    for (std::ptrdiff_t j = range.first; j < range.last; j += lanes_at_once) {
+      const __m256 within = squared(_mm256_add_ps(reach, _mm256_loadu_ps(c.reach + j)));
+      const __m256 apart = squared_distances_from<D>(place, c.places + j * place_size<D>);
+      const int set = less(apart, within) & lanes_below(range.last - j);
+      write_pairs(c.grain, gathered(counted_from(j), set), found + count);
+      count += __builtin_popcount(static_cast<unsigned>(set));
+    }
   }
   return count;
 }
@@ -129,7 +132,7 @@ template <int D, bool Own, bool Numbered>
   const float* places = search.places;
   std::ptrdiff_t count = 0;
   float within = (search.reach + search.slack) * (search.reach + search.slack);
-  for (std::ptrdiff_t k = 0; k < search.count; ++k) {
+  for (std::ptrdiff_t k = search.first; k < search.last; ++k) {
     const std::ptrdiff_t i = search.pairs[k].first;
     const std::ptrdiff_t j = search.pairs[k].second;
     const float squared = squared_distance<D>(places + i * place_size<D>, places + j * place_size<D>);
@@ -148,10 +151,12 @@ std::ptrdiff_t near(const Candidates& c, Pair* found) {
   std::ptrdiff_t count = 0;
   const float* place = c.places + c.grain * place_size<D>;
   const float reach = c.reach[c.grain];
-  for (std::ptrdiff_t j = c.first; j < c.last; ++j) {
-    const float both = reach + c.reach[j];
-    found[count] = {static_cast<std::int32_t>(c.grain), static_cast<std::int32_t>(j)};
-    count += squared_distance<D>(place, c.places + j * place_size<D>) < both * both ? 1 : 0;
+  for (int r = 0; r < c.count; ++r) {
+    for (std::ptrdiff_t j = c.ranges[r].first; j < c.ranges[r].last; ++j) {
+      const float both = reach + c.reach[j];
+      found[count] = {static_cast<std::int32_t>(c.grain), static_cast<std::int32_t>(j)};
+      count += squared_distance<D>(place, c.places + j * place_size<D>) < both * both ? 1 : 0;
+    }
   }
   return count;
 }

@@ -33,10 +33,15 @@ struct PairSearch {
   const float* places = nullptr;
   const Pair* pairs = nullptr;
   const std::uint32_t* numbers = nullptr;  ///< what is written of each; null: where it stands
-  std::ptrdiff_t count = 0;
+  std::ptrdiff_t first = 0, last = 0;      ///< those that are looked at
   float reach = 0.0F;            ///< m, of two grains
   const float* radii = nullptr;  ///< m, of each grain, read instead of `reach` where it is not null
   float slack = 0.0F;            ///< m, is added
+};
+
+/// Grains [first, last); none where that is no range.
+struct Range {
+  std::int32_t first, last;
 };
 
 /// Ranges of grains in each of which all are candidates.
@@ -44,7 +49,8 @@ struct Candidates {
   const float* places = nullptr;
   const float* reach = nullptr;  ///< m, radius and what a grain may move before lists are made anew
   std::ptrdiff_t grain = 0;
-  std::ptrdiff_t first = 0, last = 0;
+  const Range* ranges = nullptr;
+  int count = 0;
 };
 
 /// What grains [first, last) have moved since `before` was written, in a frame that has moved by `shift` (m).

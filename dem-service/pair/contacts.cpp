@@ -77,7 +77,8 @@ PairContacts::PairContacts(const PairLaw& law, const PairFeatures& features)
 
 void PairContacts::clear(double largest_radius) {
   nearly_ = 4.0 * largest_radius * largest_radius;  // a power of two times a square: never below a pair's own (r+r)^2
-  pairs_.clear();
+  own_pairs_.clear();
+  pairs_ = {};
   now_.size = 0;
   now_.reserve(0, layout_.values);
   now_.end(layout_.values);
@@ -260,21 +261,25 @@ void PairContacts::flush(const PairArrays& particles, double grown, std::size_t 
   for (int h = 0; h < layout.values; ++h) history[h] = now_.value[h].data() + first_contact;
   kernel_(law_, grown, batch_, history, sums_);
   const std::uint32_t* numbers = now_.pair.data() + first_contact;
+  outside_.reserve(static_cast<std::size_t>(count) + 1);
   for (int l = 0; l < count; ++l) {
     const auto [i, j] = pairs_[numbers[l]];
+    const bool inside = j >= particles.first && j < particles.last;
     double* on_first = particles.force + particles.force_stride * i;
-    double* on_second = particles.force + particles.force_stride * j;
+    double* on_second = inside ? particles.force + particles.force_stride * j : outside_.next();
     const double radius[2] = {equal_radius_ > 0.0 ? equal_radius_ : particles.radius[i],
                               equal_radius_ > 0.0 ? equal_radius_ : particles.radius[j]};
     for (int c = 0; c < D; ++c) on_first[c] += batch_.force[c][l];
     for (int c = 0; c < D; ++c) on_second[c] -= batch_.force[c][l];
     if constexpr (Friction) {
+      double* turns_second = inside ? particles.torque + particles.force_stride * j : outside_.next() + 3;
       for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
         const double torque = history[layout.torque + (D == 2 ? 0 : c)][l];
         particles.torque[particles.force_stride * i + c] -= radius[0] * torque;
-        particles.torque[particles.force_stride * j + c] -= radius[1] * torque;
+        turns_second[c] -= radius[1] * torque;
       }
     }
+    if (!inside) outside_.add(j);
   }
   batch_.count = 0;
 }

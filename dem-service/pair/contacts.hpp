@@ -11,10 +11,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "dem-service/pair/batch.hpp"
+#include "dem-service/pair/outside_forces.hpp"
 #include "dem-service/pair/pair.hpp"
 #include "dem-service/pair_energy.hpp"
 
@@ -32,6 +34,9 @@ struct PairArrays {
   // Doubles from one particle's vector to the next one's; LAMMPS has three of each in a block of their own.
   std::ptrdiff_t stride = 3;        ///< of position, velocity and spin
   std::ptrdiff_t force_stride = 3;  ///< of force and torque
+  // Forces on these are added at once, on the second of a pair that is none of them later: PairContacts::outside().
+  std::int32_t first = 0;
+  std::int32_t last = std::numeric_limits<std::int32_t>::max();
 };
 
 class PairContacts {
@@ -41,9 +46,12 @@ class PairContacts {
   /// `largest_radius`: m, of all particles.
   void clear(double largest_radius);
   /// The next pair of the list, by their numbers among the particles.
-  void add(int first, int second) { pairs_.push_back({first, second}); }
-  /// All pairs at once.
-  void set_pairs(std::span<const Pair> pairs) { pairs_.assign(pairs.begin(), pairs.end()); }
+  void add(int first, int second) {
+    own_pairs_.push_back({first, second});
+    pairs_ = own_pairs_;
+  }
+  /// All pairs at once; they stay where they are.
+  void set_pairs(std::span<const Pair> pairs) { pairs_ = pairs; }
   /// This pair touched in the last step: values of HistoryLayout. In the order of pairs.
   void adopt(std::size_t pair, const double* values);
   /// The pair added last did.
@@ -58,10 +66,12 @@ class PairContacts {
   void evaluate(const PairArrays& particles, double grown, std::span<const std::uint32_t> near);
 
   [[nodiscard]] const PairEnergy& energy() const { return energy_; }
+  /// Of the last step.
+  [[nodiscard]] OutsideForces& outside() { return outside_; }
   [[nodiscard]] int values_per_contact() const { return layout_.values; }
   [[nodiscard]] std::size_t count() const { return now_.size; }
 
-  [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
+  [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   [[nodiscard]] const Pair& pair_of(std::size_t contact) const { return pairs_[now_.pair[contact]]; }
   [[nodiscard]] double value(std::size_t contact, int h) const { return now_.value[h][contact]; }
   /// What a value is multiplied by when the second particle of the pair becomes the first: springs point the other way.
@@ -98,13 +108,15 @@ class PairContacts {
   PairKernel kernel_;
   double equal_radius_ = 0.0;  ///< m; 0: they are not
   double nearly_ = 0.0;        ///< m^2: pairs further apart cannot touch; of mixed sizes each pair's own radii say so
-  std::vector<Pair> pairs_;
+  std::vector<Pair> own_pairs_;
+  std::span<const Pair> pairs_;
   std::vector<std::uint32_t> near_;
   std::size_t near_count_ = 0;
   Contacts before_, now_;
   PairBatch batch_;
   PairSums sums_;
   PairEnergy energy_;
+  OutsideForces outside_;
 };
 
 /// Copies of the kernel that this machine can run, the fastest first.

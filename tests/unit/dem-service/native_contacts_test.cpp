@@ -67,9 +67,7 @@ Compared compare(const wire::Setup& setup, double duration, std::vector<PlacedPa
   Search::Pairs found;
   engine->watch([&](const native::View& view) {
     found.clear();
-    const PairContacts& contacts = *view.contacts;
-    for (std::size_t n = 0; n < contacts.count(); ++n) {
-      const Pair& pair = contacts.pair_of(n);
+    for (const Pair& pair : view.touching) {
       found.push_back(std::minmax(view.grains.identity[pair.first], view.grains.identity[pair.second]));
     }
     std::sort(found.begin(), found.end());
@@ -133,6 +131,13 @@ TEST(NativeContacts, NoneIsMissedBetweenWallsAndMirror) {
   slug_of(setup).set_confined(true);
   setup.set_mirror(true);
   expect_all(setup, 50'000);
+}
+
+// More grains than one block has (native/blocks.hpp).
+TEST(NativeContacts, NoneIsMissedBetweenBlocks) {
+  wire::Setup setup = discs();
+  slug_of(setup).mutable_particle()->set_diameter(0.3e-3);
+  expect_all(setup, 2'000'000);
 }
 
 TEST(NativeContacts, NoneIsMissedOfManySizes) {

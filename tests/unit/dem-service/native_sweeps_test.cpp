@@ -25,7 +25,8 @@ class Cloud {
  public:
   explicit Cloud(const Sweeps& sweeps) : sweeps_(sweeps), grains_(model_of(D), particles(), identities()) {
     const double origin[3] = {-0.01, -0.01, -0.01};
-    grains_.set_origin(origin, count);
+    base::Team alone(1);
+    grains_.set_origin(alone, origin, count);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> newtons(-1.0, 1.0);
     for (std::int32_t i = 0; i < count; ++i) {
@@ -39,7 +40,9 @@ class Cloud {
   /// Everything that a step leaves, as bytes that can be compared.
   std::vector<double> step() {
     std::vector<double> out;
-    grains_.remember_places(count);
+    base::Team alone(1);
+    const double origin[3] = {0.0, 0.0, 0.0};
+    grains_.set_origin(alone, origin, count);
     out.push_back(grains_.move(sweeps_, 3, count - 2, {{1.0, -2.0, 0.5}}, 1e-7, 1e-7));
     out.push_back(grains_.displaced(sweeps_, 0, count, {{1e-6, 0.0, 0.0}}));
     for (std::int32_t i = 0; i < count; ++i) {
@@ -51,15 +54,16 @@ class Cloud {
     listed.resize(listed.size() + lanes_at_once);
     std::vector<std::uint32_t> found(listed.size());
     const std::ptrdiff_t near = sweeps_.touching[D - 2](
-        {grains_.places(), listed.data(), nullptr, pairs, 3e-3F, nullptr, 1e-7F},
+        {.places = grains_.places(), .pairs = listed.data(), .last = pairs, .reach = 3e-3F, .slack = 1e-7F},
         found.data());
     EXPECT_GT(near, 50);
     EXPECT_LT(near, pairs / 2);
     out.insert(out.end(), found.begin(), found.begin() + near);
     std::vector<Pair> around(count + lanes_at_once);
     const std::vector<float> reach(count + lanes_at_once, 2e-3F);
+    const Range all{0, count};
     const std::ptrdiff_t neighbours =
-        sweeps_.near[D - 2]({grains_.places(), reach.data(), 11, 0, count}, around.data());
+        sweeps_.near[D - 2]({grains_.places(), reach.data(), 11, &all, 1}, around.data());
     for (std::ptrdiff_t n = 0; n < neighbours; ++n) out.push_back(around[static_cast<std::size_t>(n)].second);
     return out;
   }

@@ -1,0 +1,95 @@
+// Grains of several blocks, and several threads: results are those of one thread, and forces between blocks are there
+// on both sides.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "contact/moving_surface.hpp"
+#include "engine_rig.hpp"
+#include "slice_rig.hpp"
+
+namespace grainstep::dem {
+namespace {
+
+using namespace rig;
+
+/// Grains of some blocks, until all of them have arrived.
+wire::Setup discs(double width) {
+  wire::Setup setup = reference_setup();
+  set_flat_surface(setup, 0.1, 40);
+  slug_of(setup).mutable_particle()->set_diameter(0.3e-3);
+  if (width > 0.0) {
+    auto& sizes = *slug_of(setup).mutable_size_distribution();
+    sizes.set_by(scene::SizeDistribution::BY_NUMBER);
+    sizes.mutable_uniform()->set_width(width);
+  }
+  return setup;
+}
+
+wire::Setup spheres() {
+  wire::Setup setup = slice_setup();
+  set_rings(setup, 0.1, 40);
+  slug_of(setup).mutable_particle()->set_diameter(slug_of(setup).particle().diameter() / 2.0);
+  return setup;
+}
+
+ScriptedLink run_with(int threads, const wire::Setup& setup) {
+  const SlugModel model = model_of(setup);
+  const scene::Slug& slug = slug_of(const_cast<wire::Setup&>(setup));
+  const double duration = 1.1 * slug.height() / slug.speed();
+  wire::Start start = start_of(model.preferred_step, static_cast<std::uint64_t>(duration / model.preferred_step));
+  start.set_report_every(100);
+  ScriptedLink link(setup, start, at_rest());
+  auto particles = lay_out(model, contact::MovingSurface(setup.impactor().surface()).now());
+  EXPECT_GT(particles.size(), 4096U) << "fewer than three blocks";
+  native::make_engine(model, setup.impactor(), std::move(particles), threads)->run(start, link);
+  return link;
+}
+
+template <typename Message>
+std::string bytes_of(const std::vector<Message>& messages) {
+  std::string bytes;
+  for (Message message : messages) {
+    if constexpr (requires { message.clear_timing(); }) message.clear_timing();
+    message.AppendToString(&bytes);
+  }
+  return bytes;
+}
+
+void expect_the_same_with_any_number_of_threads(const wire::Setup& setup) {
+  const ScriptedLink alone = run_with(1, setup);
+  ASSERT_GT(alone.reports.back().energy().kinetic(), 0.0);
+  for (const int threads : {2, 3, 5}) {
+    const ScriptedLink together = run_with(threads, setup);
+    EXPECT_EQ(bytes_of(together.forces), bytes_of(alone.forces)) << threads << " threads";
+    EXPECT_EQ(bytes_of(together.reports), bytes_of(alone.reports)) << threads << " threads";
+    EXPECT_EQ(bytes_of(together.snapshots), bytes_of(alone.snapshots)) << threads << " threads";
+  }
+}
+
+TEST(NativeBlocks, DiscsAreTheSameWithAnyNumberOfThreads) { expect_the_same_with_any_number_of_threads(discs(0.0)); }
+
+TEST(NativeBlocks, UnequalDiscsAreTheSameWithAnyNumberOfThreads) {
+  expect_the_same_with_any_number_of_threads(discs(0.5));
+}
+
+TEST(NativeBlocks, SpheresAreTheSameWithAnyNumberOfThreads) { expect_the_same_with_any_number_of_threads(spheres()); }
+
+// What one grain gets from another of a different block, that one gets as well: momentum is what came in less what the
+// surface took, and turning is neither made nor lost by it.
+TEST(NativeBlocks, ForcesBetweenBlocksActOnBoth) {
+  const wire::Setup setup = discs(0.0);
+  const ScriptedLink link = run_with(2, setup);
+  const wire::Report& first = link.reports.front();
+  const wire::Report& last = link.reports.back();
+  const double scale = std::abs(first.momentum().linear(1));
+  ASSERT_LT(std::abs(last.momentum().linear(1)), 0.9 * scale) << "too few have arrived";
+  for (int c = 0; c < 2; ++c) {
+    const double received = last.momentum().interface_impulse(c) - first.momentum().interface_impulse(c);
+    EXPECT_NEAR(last.momentum().linear(c) - received, first.momentum().linear(c), 1e-12 * scale) << c;
+  }
+}
+
+}  // namespace
+}  // namespace grainstep::dem
