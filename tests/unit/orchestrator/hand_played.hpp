@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -19,9 +20,13 @@ namespace grainstep::orchestrator {
 /// Keeps everything that passes by.
 class Witness final : public StepObserver {
  public:
-  void forces(const wire::Forces& forces) override { forces_.push_back(forces); }
+  void forces(const wire::Forces& forces) override {
+    forces_.push_back(forces);
+    order_ += "forces ";
+  }
   void report(wire::Role side, const wire::Report& report) override {
     (side == wire::IMPACTOR ? impactor_ : structure_).push_back(report);
+    order_ += "report ";
   }
   void snapshot(wire::Role side, wire::Snapshot snapshot) override {
     ++(side == wire::IMPACTOR ? particles_ : meshes_);
@@ -33,6 +38,7 @@ class Witness final : public StepObserver {
   std::vector<wire::Forces> forces_;
   std::vector<wire::Report> impactor_;
   std::vector<wire::Report> structure_;
+  std::string order_;
   int particles_ = 0;
   int meshes_ = 0;
   int finished_ = 0;

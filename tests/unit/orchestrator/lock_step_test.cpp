@@ -48,6 +48,16 @@ class HandPlayed : public ::testing::TestWithParam<Path> {
     }
     return out;
   }
+  static wire::Report report(std::uint64_t window) {
+    wire::Report out;
+    out.set_window(window);
+    wire::Momentum& momentum = *out.mutable_momentum();
+    for (auto* vector :
+         {momentum.mutable_linear(), momentum.mutable_interface_impulse(), momentum.mutable_support_impulse()}) {
+      vector->Resize(2, 0.0);
+    }
+    return out;
+  }
   std::string run(double silence_s = grainstep::testing::patience_s) {
     try {
       LockStep(hub_, witness_, start_, silence_s, listener_.get()).run();
@@ -203,14 +213,7 @@ TEST_P(HandPlayed, ALostPeerIsNamedAndWhatItSaidBeforeIsTaken) {
 
 // The structure fails and goes while Forces for it are on their way: the loss is noticed when they are sent.
 TEST_P(HandPlayed, WhyAPeerWentIsHeardEvenWhenItsGoingIsNoticedFirst) {
-  wire::Report report;
-  report.set_window(0);
-  for (auto* vector :
-       {report.mutable_momentum()->mutable_linear(), report.mutable_momentum()->mutable_interface_impulse(),
-        report.mutable_momentum()->mutable_support_impulse()}) {
-    vector->Resize(2, 0.0);
-  }
-  structure_.messages_->send(report);
+  structure_.messages_->send(report(0));
   wire::Error error;
   error.set_kind(wire::Error::NUMERICAL);
   error.set_text("an element is inside out");
@@ -232,6 +235,27 @@ TEST_P(HandPlayed, ReportsOfAnotherWindowThanDueAreRefused) {
   report.set_window(3);
   impactor_.messages_->send(report);
   EXPECT_THAT(run(), HasSubstr("expected Report of window 0, got Report of window 3"));
+}
+
+// On the short path Forces and Report go different ways.
+TEST_P(HandPlayed, WhatIsReportedOfAWindowComesAfterItsForces) {
+  impactor_.data().send(forces(0));
+  impactor_.messages_->send(report(0));
+  EXPECT_THAT(run(0.2), HasSubstr("peer: structure: said nothing for"));
+  EXPECT_EQ(witness_.order_, "forces report ");
+}
+
+// The sides are still to be stopped and heard: what they wrongly said on the short path is told once.
+TEST_P(HandPlayed, WhatComesAfterTheEndOnTheShortPathEndsNothingMore) {
+  if (GetParam() == Path::hub) return;
+  LockStep steps(hub_, witness_, start_, grainstep::testing::patience_s, listener_.get());
+  impactor_.data().send(forces(0, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_THROW(steps.run(), NumericalError);
+  impactor_.data().send(forces(7));
+  structure_.messages_->send(report(0));
+  int heard = 0;
+  const auto hear = [&heard](Peer&, const wire::Frame&) { ++heard; };
+  EXPECT_NO_THROW(hub_.run(hear, [&heard] { return heard == 1; }, Hub::within(grainstep::testing::patience_s)));
 }
 
 }  // namespace

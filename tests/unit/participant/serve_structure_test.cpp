@@ -1,105 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <limits>
-#include <thread>
-
-#include "scripted_orchestrator.hpp"
-#include "transport/shared_channel.hpp"
+#include "one_node.hpp"
 
 namespace grainstep::participant {
 namespace {
-
-/// One node at rest; remembers the order of its calls.
-class OneNode final : public StructureBackend {
- public:
-  wire::Hello describe() const override {
-    wire::Hello hello;
-    hello.set_backend("one node");
-    hello.add_dimension(2);
-    return hello;
-  }
-  wire::Ready prepare(const wire::Setup& /*setup*/) override {
-    wire::Ready ready;
-    for (int i = 0; i < 2; ++i) {
-      ready.mutable_surface()->add_position(0.0);
-      ready.mutable_surface()->add_velocity(0.0);
-    }
-    return ready;
-  }
-  void start(const wire::Start& /*start*/) override { calls += "start "; }
-  void advance(const wire::Forces& forces, Due due, wire::Kinematics& next) override {
-    calls += "advance" + std::to_string(forces.window()) + (due.report ? "r" : "") + (due.snapshot ? "s" : "") + " ";
-    if (forces.window() == fail_at) {
-      throw NumericalError("element 3 inverted");
-    }
-    for (int i = 0; i < 2; ++i) {
-      next.add_position(forces.impulse(i));
-      next.add_velocity(0.0);
-    }
-  }
-  void report(wire::Report& report) override {
-    calls += "report ";
-    report.mutable_timing()->set_steps(++reports);
-  }
-  void snapshot(wire::Snapshot& /*snapshot*/) override { calls += "snapshot "; }
-  void complete() override { calls += "complete "; }
-
-  std::string calls;
-  std::uint64_t fail_at = 99;
-  std::uint64_t reports = 0;
-};
-
-class ServeStructure : public ::testing::Test {
- protected:
-  static wire::Setup setup() {
-    wire::Setup setup;
-    setup.set_protocol(wire::PROTOCOL_VERSION);
-    setup.set_scene_hash(4711);
-    setup.mutable_structure();
-    return setup;
-  }
-  static wire::Start start() {
-    wire::Start start;
-    start.set_window(1e-7);
-    start.set_windows(3);
-    start.set_impactor_steps(1);
-    start.set_structure_steps(1);
-    start.set_report_every(2);
-    start.set_snapshot_every(3);
-    return start;
-  }
-  static wire::Forces forces(std::uint64_t window) {
-    wire::Forces forces;
-    forces.set_window(window);
-    forces.add_impulse(0.5 * static_cast<double>(window));
-    forces.add_impulse(0.0);
-    return forces;
-  }
-  static wire::Stop stop() { return {}; }
-
-  testing::ScriptedOrchestrator& orchestrator(ServeOptions options = {}) {
-    conversation_ = std::make_unique<testing::ScriptedOrchestrator>(
-        [this](transport::Channel& channel, const ServeOptions& serve_options) {
-          return serve_structure(channel, backend, serve_options);
-        },
-        options);
-    return *conversation_;
-  }
-  testing::ScriptedOrchestrator& started() {
-    auto& talk = orchestrator();
-    talk.hear<wire::Hello>();
-    talk.tell(setup());
-    talk.hear<wire::Ready>();
-    talk.tell(start());
-    return talk;
-  }
-
-  OneNode backend;
-
- private:
-  std::unique_ptr<testing::ScriptedOrchestrator> conversation_;
-};
 
 TEST_F(ServeStructure, a_whole_run_in_the_documented_order) {
   auto& talk = orchestrator();
@@ -235,60 +139,6 @@ TEST_F(ServeStructure, while_it_runs_silence_is_borne_for_the_deadline_of_data) 
   talk.tell(start());
   EXPECT_EQ(talk.exit_code(), 4);
   EXPECT_EQ(talk.error_text(), "error: orchestrator: expected Forces of window 0, heard nothing for 0.01 s\n");
-}
-
-TEST_F(ServeStructure, shared_memory_that_is_not_there_is_said_with_what_to_do) {
-  auto& talk = orchestrator();
-  talk.hear<wire::Hello>();
-  talk.tell(setup());
-  talk.hear<wire::Ready>();
-  auto elsewhere = start();
-  elsewhere.mutable_shared_memory()->set_file("/dev/shm/grainstep-of-another-host/data");
-  talk.tell(elsewhere);
-  const auto error = talk.hear<wire::Error>();
-  EXPECT_EQ(error.kind(), wire::Error::BAD_INPUT);
-  EXPECT_NE(error.text().find("grainstep-of-another-host"), std::string::npos) << error.text();
-  EXPECT_NE(error.text().find("--path hub takes another way"), std::string::npos) << error.text();
-  EXPECT_EQ(talk.exit_code(), 2);
-}
-
-// The orchestrator has ended the run, the other side goes on and on. Who waits for no data looks at its orchestrator,
-// too.
-TEST_F(ServeStructure, stop_is_heard_while_data_come_over_shared_memory) {
-  using Way = transport::SharedPath::Way;
-  const transport::SharedPath path = transport::SharedPath::create(1000);
-  backend.fail_at = std::numeric_limits<std::uint64_t>::max();
-  auto& talk = orchestrator();
-  talk.hear<wire::Hello>();
-  talk.tell(setup());
-  talk.hear<wire::Ready>();
-  auto endless = start();
-  endless.set_windows(1'000'000'000'000);
-  endless.set_report_every(1e12);
-  endless.set_snapshot_every(0.0);
-  endless.mutable_shared_memory()->set_file(path.file());
-  talk.tell(endless);
-  std::atomic<std::uint64_t> windows = 0;
-  std::jthread other([&](const std::stop_token& ended) {
-    transport::SharedChannel impactor(path, Way::forces, "structure", [] {});
-    wire::MessageChannel data(impactor, "structure");
-    transport::SharedChannel of_impactor(path, Way::forces, "impactor");
-    transport::SharedChannel of_structure(path, Way::kinematics, "structure");
-    transport::Bytes heard;
-    while (!ended.stop_requested()) {
-      data.send(forces(windows));
-      while (!ended.stop_requested() && data.receive(transport::in(std::chrono::milliseconds(20))) == nullptr) continue;
-      while (of_impactor.receive(heard, transport::Clock::now())) continue;
-      while (of_structure.receive(heard, transport::Clock::now())) continue;
-      ++windows;
-    }
-  });
-  talk.hear<wire::Report>();
-  const auto deadline = grainstep::testing::soon();
-  while (windows < 1000 && transport::Clock::now() < deadline) std::this_thread::yield();
-  talk.tell(stop());
-  talk.hear<wire::Finished>();
-  EXPECT_EQ(talk.exit_code(), 0);
 }
 
 // Nothing was built that could be started.
