@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/team.hpp"
 #include "fe-service/kernel/kernel.hpp"
 #include "fe-service/materials/material.hpp"
 #include "fe-service/mesh.hpp"
@@ -36,6 +37,9 @@ class Body {
   /// `layers` by layer index of the mesh.
   Body(Mesh mesh, std::vector<Material> layers, const Measure& measure,
        const Kernels& kernels = *available_kernels().front());
+
+  /// Rows are shared among `team`, which outlives the body; results do not depend on its size.
+  void share_among(base::Team& team);
 
   /// Bulk viscosity of all rows; before the first sweep.
   void resist_volume(const BulkFactors& factors);
@@ -86,9 +90,20 @@ class Body {
   Nodes corners, centres;
 
  private:
+  /// What each row needs of its own while others are swept at the same time: two rows share the corners between them.
+  struct Apart {
+    Array scratch, viscous_scratch;
+    RowSweep swept, viscous;  ///< the forces on their upper corners are still to be added
+  };
+
   [[nodiscard]] RowSweep row_view(int row) const;
+  [[nodiscard]] RowSweep row_to_sweep(int row, double step, double* scratch);
+  void sweep_one(int row, RowSweep& view);
+  void resist(int row, RowSweep& view);
+  void sweep_apart(int row, double step);
+  SweepResult sweep_all_apart(double step);
+  void add_up(int row, const RowSweep& view, SweepResult& result) const;
   [[nodiscard]] QuadMass quad_mass(int row) const;
-  void resist(int row, RowSweep& view, SweepResult& result);
   [[nodiscard]] double limit_of(double omega_squared) const;
   void place_nodes();
   void share_mass();
@@ -101,6 +116,8 @@ class Body {
   const Kernels* kernels_;
   std::vector<Array> state_;  ///< by row of elements
   Array scratch_;
+  base::Team* team_ = nullptr;  ///< nullptr: one thread
+  std::vector<Apart> apart_;    ///< of each row, or none
 
   /// Of a row of elements.
   struct Resistance {

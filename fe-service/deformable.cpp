@@ -23,11 +23,13 @@ Body make_body(const scene::Structure& structure, const Measure& measure) {
 
 }  // namespace
 
-Deformable::Deformable(const scene::Structure& structure, const scene::Guards& guards, const Measure& measure)
+Deformable::Deformable(const scene::Structure& structure, const scene::Guards& guards, const Measure& measure,
+                       base::Team* team)
     : guards_(guards),
       body_(make_body(structure, measure)),
       undeformed_step_(body_.stable_step()),
       stable_step_(undeformed_step_) {
+  if (team != nullptr) body_.share_among(*team);
   set_initial_velocity(structure, body_);
   for (const Corner c : body_.mesh().surface()) surface_.push_back(body_.mesh().corner(c));
   travelled_.resize(surface_.size());

@@ -30,7 +30,8 @@ inline constexpr std::uint64_t kCheckInterval = 10;
 
 class Deformable final : public WindowedStructure {
  public:
-  Deformable(const scene::Structure& structure, const scene::Guards& guards, const Measure& measure);
+  Deformable(const scene::Structure& structure, const scene::Guards& guards, const Measure& measure,
+             base::Team* team = nullptr);
 
   void fill_ready(wire::Ready& ready) const override;
   void start(const wire::Start& start) override;

@@ -11,13 +11,15 @@ int main(int argc, char** argv) {
   std::string role = "structure";
   program.option("role", "structure (default), or impactor: a foam projectile, a prescribed pressure, or no load", role,
                  {"structure", "impactor"});
+  int threads = 1;
+  program.number("threads", "Threads of a structure; results do not depend on their number", threads, 1, 1024);
   if (const auto code = program.parse(argc, argv)) return *code;
-  return program.run([&role](Channel& channel) {
+  return program.run([&role, threads](Channel& channel) {
     if (role == "impactor") {
       grainstep::fe::Impactor impactor;
       return grainstep::participant::serve_impactor(channel, impactor);
     }
-    grainstep::fe::Structure structure;
+    grainstep::fe::Structure structure(threads);
     return grainstep::participant::serve_structure(channel, structure);
   });
 }

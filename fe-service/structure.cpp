@@ -14,7 +14,7 @@ wire::Hello Structure::describe() const {
   wire::Hello hello = participant::hello(
       wire::STRUCTURE, std::string("grainstep-fe (") + available_kernels().front()->name + ")", GRAINSTEP_VERSION, {2});
   for (const char* capability :
-       {"beam", "plate", "rigid", "plane_strain", "axisymmetric", "initial_velocity", "bulk_viscosity"})
+       {"beam", "plate", "rigid", "plane_strain", "axisymmetric", "initial_velocity", "bulk_viscosity", "threads"})
     hello.add_capabilities(capability);
   for (const std::string& material : layer_words()) hello.add_capabilities(material);
   return hello;
@@ -29,7 +29,8 @@ wire::Ready Structure::prepare(const wire::Setup& setup) {
   wire::Ready ready = found.ready();
   ready.set_scene_hash(setup.scene_hash());
   if (setup.preview()) return ready;
-  structure_ = make_structure(setup);
+  if (threads_ > 1) team_.emplace(threads_);
+  structure_ = make_structure(setup, team_ ? &*team_ : nullptr);
   ready.clear_surface();
   structure_->fill_ready(ready);
   return ready;

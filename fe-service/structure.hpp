@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "fe-service/windows.hpp"
 #include "participant/backend.hpp"
@@ -10,6 +11,8 @@ namespace grainstep::fe {
 
 class Structure final : public participant::StructureBackend {
  public:
+  explicit Structure(int threads = 1) : threads_(threads) {}
+
   [[nodiscard]] wire::Hello describe() const override;
   [[nodiscard]] wire::Ready prepare(const wire::Setup& setup) override;
   void start(const wire::Start& start) override;
@@ -20,6 +23,8 @@ class Structure final : public participant::StructureBackend {
 
  private:
   [[nodiscard]] WindowedStructure& prepared();
+  int threads_;
+  std::optional<base::Team> team_;
   std::unique_ptr<WindowedStructure> structure_;
 };
 

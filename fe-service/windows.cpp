@@ -11,7 +11,7 @@
 
 namespace grainstep::fe {
 
-std::unique_ptr<WindowedStructure> make_structure(const wire::Setup& setup) {
+std::unique_ptr<WindowedStructure> make_structure(const wire::Setup& setup, base::Team* team) {
   if (!setup.has_structure()) throw InputError("setup: grainstep-fe is a structure, but was sent an impactor's part");
   const Measure measure = make_measure(setup.symmetry(), setup.depth());
   const scene::Structure& structure = setup.structure().structure();
@@ -19,7 +19,7 @@ std::unique_ptr<WindowedStructure> make_structure(const wire::Setup& setup) {
   switch (structure.type()) {
     case scene::Structure::TYPE_BEAM:
     case scene::Structure::TYPE_PLATE:
-      return std::make_unique<Deformable>(structure, setup.structure().guards(), measure);
+      return std::make_unique<Deformable>(structure, setup.structure().guards(), measure, team);
     case scene::Structure::TYPE_RIGID:
       return std::make_unique<Rigid>(structure, measure);
     default:

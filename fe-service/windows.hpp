@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "base/team.hpp"
 #include "participant/backend.hpp"
 
 namespace grainstep::fe {
@@ -21,7 +22,8 @@ class WindowedStructure {
 
 /// A rigid target (rigid.hpp) or a deformable body (deformable.hpp), as the scene asks.
 /// Throws InputError for what cannot be computed here.
-[[nodiscard]] std::unique_ptr<WindowedStructure> make_structure(const wire::Setup& setup);
+/// `team`, which outlives it, computes it; without one, the calling thread does.
+[[nodiscard]] std::unique_ptr<WindowedStructure> make_structure(const wire::Setup& setup, base::Team* team = nullptr);
 
 /// Throws PeerError unless the message holds an impulse of two components for each of `nodes`, all finite.
 void check_forces(const wire::Forces& forces, std::size_t nodes);

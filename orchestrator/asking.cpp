@@ -54,10 +54,10 @@ Answers ask(const scene::Scene& scene, std::uint64_t hash, const RunOptions& opt
     session.abandon(error.what(), "");
     throw;
   }
-  Answers answers{.impactor = answer_of(hub.impactor(), no_impactor),
-                  .structure = answer_of(hub.structure(), no_structure),
-                  .takes_threads = {.impactor = takes_threads(hub.impactor()),
-                                    .structure = takes_threads(hub.structure())}};
+  Answers answers{
+      .impactor = answer_of(hub.impactor(), no_impactor),
+      .structure = answer_of(hub.structure(), no_structure),
+      .takes_threads = {.impactor = takes_threads(hub.impactor()), .structure = takes_threads(hub.structure())}};
   supervision.end_all(patience_at_the_end);
   return answers;
 }

@@ -85,10 +85,18 @@ void check_connection(const scene::Scene& scene, const RunOptions& options) {
 
 Participants::Participants(const scene::Scene& scene, const RunOptions& options, const ThreadShares& threads)
     : options_(options),
-      impactor_{wire::IMPACTOR, is_external(wire::IMPACTOR, scene, options), scene::program_of(scene, wire::IMPACTOR),
-                threads.impactor, scene.impactor().type() == scene::Impactor::TYPE_DECK, nullptr},
-      structure_{wire::STRUCTURE, is_external(wire::STRUCTURE, scene, options),
-                 scene::program_of(scene, wire::STRUCTURE), threads.structure, false, nullptr} {
+      impactor_{wire::IMPACTOR,
+                is_external(wire::IMPACTOR, scene, options),
+                scene::program_of(scene, wire::IMPACTOR),
+                threads.impactor,
+                scene.impactor().type() == scene::Impactor::TYPE_DECK,
+                nullptr},
+      structure_{wire::STRUCTURE,
+                 is_external(wire::STRUCTURE, scene, options),
+                 scene::program_of(scene, wire::STRUCTURE),
+                 threads.structure,
+                 false,
+                 nullptr} {
   open(impactor_);
   open(structure_);
 }

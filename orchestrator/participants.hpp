@@ -8,8 +8,8 @@
 #include "base/temporary_directory.hpp"
 #include "grainstep/scene.pb.h"
 #include "orchestrator/options.hpp"
-#include "orchestrator/threads.hpp"
 #include "orchestrator/supervision.hpp"
+#include "orchestrator/threads.hpp"
 #include "scene/needs.hpp"
 #include "transport/zmq_channel.hpp"
 
@@ -54,7 +54,7 @@ class Participants {
     bool external;
     scene::Program program;
     int threads;  ///< more than one only where it takes them
-    bool deck;  ///< it will run a script, and was allowed to
+    bool deck;    ///< it will run a script, and was allowed to
     std::unique_ptr<transport::ZmqChannel> channel;
   };
   [[nodiscard]] std::string endpoint_of(const Side& side) const;

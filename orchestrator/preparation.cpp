@@ -48,7 +48,8 @@ void ask_participants(Preparation& p, const RunOptions& options) {
     p.plan = plan_steps(p.scene, p.groups.end, steps_of(*p.impactor), steps_of(*p.structure));
   }
   if (const auto cost = cost_of(p)) {
-    p.threads = share_threads(options.threads > 0 ? options.threads : base::usable_cores(), *cost, answers.takes_threads);
+    p.threads =
+        share_threads(options.threads > 0 ? options.threads : base::usable_cores(), *cost, answers.takes_threads);
   }
 }
 

@@ -27,7 +27,8 @@ int usable_cores() {
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
-Team::Team(int threads) : shares_(static_cast<std::size_t>(std::max(threads, 1))), may_spin_(usable_cores() >= threads) {
+Team::Team(int threads)
+    : shares_(static_cast<std::size_t>(std::max(threads, 1))), may_spin_(usable_cores() >= threads) {
   try {
     for (int number = 1; number < threads; ++number) workers_.emplace_back([this, number] { serve(number); });
   } catch (...) {  // no more threads to be had: those that there are do it

@@ -1,8 +1,8 @@
 /// @file Threads that work on one thing together, many thousand times a second.
 ///
-/// Whoever waits spins for a while first, for waking a thread takes longer than many a task; where there are fewer cores
-/// than threads nobody spins. What a thread does may not depend on how many there are: share work by numbers that follow
-/// from the work alone, and results are the same with any number.
+/// Whoever waits spins for a while first, for waking a thread takes longer than many a task; where there are fewer
+/// cores than threads nobody spins. What a thread does may not depend on how many there are: share work by numbers that
+/// follow from the work alone, and results are the same with any number.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-/// @file Contacts between grains: those of PairContacts, one for each block, whose histories follow the grains when these
-/// are put in another order.
+/// @file Contacts between grains: those of PairContacts, one for each block, whose histories follow the grains when
+/// these are put in another order.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ class Contacts {
   };
   struct Block {
     PairContacts contacts;
-    std::vector<Kept> kept;               ///< of the contacts that were this block's, for whoever has them now
-    std::vector<const Kept*> kept_of;     ///< of each pair of the new list; nullptr: it did not touch
+    std::vector<Kept> kept;            ///< of the contacts that were this block's, for whoever has them now
+    std::vector<const Kept*> kept_of;  ///< of each pair of the new list; nullptr: it did not touch
   };
 
   void keep(Block& block, const Neighbours<D>& neighbours);

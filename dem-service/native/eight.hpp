@@ -1,5 +1,5 @@
-/// @file Eight distances at a time, for processors with AVX2. Only for files that are compiled once per instruction set:
-/// nothing here may be shared with others. The bits are those of one distance at a time (sweeps.cpp).
+/// @file Eight distances at a time, for processors with AVX2. Only for files that are compiled once per instruction
+/// set: nothing here may be shared with others. The bits are those of one distance at a time (sweeps.cpp).
 #pragma once
 
 #include <immintrin.h>

@@ -88,18 +88,16 @@ class Run {
 
   void move(std::uint64_t n) {
     const double kick = n == 1 ? dt_ / 2.0 : dt_;
-    const Allowance speed = most([&](std::int32_t first, std::int32_t last) {
-      return grains_.move(sweeps_, first, last, frame_, kick, dt_);
-    });
+    const Allowance speed = most(
+        [&](std::int32_t first, std::int32_t last) { return grains_.move(sweeps_, first, last, frame_, kick, dt_); });
     used_.slow += dt_ * speed.slow;
     used_.fast += dt_ * speed.fast;
     const Vec3 shift = (time_of(n) - built_at_) * frame_;
     if (something_near_sleepers(n)) return rebuild(n);
     if (used_.within(inner_allowance_) && within_margin(shift)) return;
     // A sum of largest speeds is more than anyone has moved: look. The whole list must hold what the inner one will.
-    moved_ = most([&](std::int32_t first, std::int32_t last) {
-      return grains_.displaced(sweeps_, first, last, shift);
-    });
+    moved_ =
+        most([&](std::int32_t first, std::int32_t last) { return grains_.displaced(sweeps_, first, last, shift); });
     used_ = {};
     if (!moved_.within(refreshable_) || !within_margin(shift)) return rebuild(n);
     neighbours_.refresh(team_, grains_);

@@ -57,9 +57,8 @@ class Impactor final : public participant::ImpactorBackend {
     ready.set_scene_hash(setup.scene_hash());
     if (setup.preview()) return ready;
     const SlugModel model = slug_model_of(setup);
-    engine_ =
-        make_engine(model, setup.impactor(), lay_out(model, contact::MovingSurface(setup.impactor().surface()).now()),
-                    threads_);
+    engine_ = make_engine(model, setup.impactor(),
+                          lay_out(model, contact::MovingSurface(setup.impactor().surface()).now()), threads_);
     return ready;
   }
 
@@ -76,8 +75,6 @@ class Impactor final : public participant::ImpactorBackend {
 
 }  // namespace
 
-std::unique_ptr<participant::ImpactorBackend> make_impactor(int threads) {
-  return std::make_unique<Impactor>(threads);
-}
+std::unique_ptr<participant::ImpactorBackend> make_impactor(int threads) { return std::make_unique<Impactor>(threads); }
 
 }  // namespace grainstep::dem::native

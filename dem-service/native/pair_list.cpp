@@ -58,15 +58,15 @@ template <int D>
 void PairList<D>::look(const Sweeps& sweeps, const Grains<D>& grains, float slack) {
   const std::size_t room = inner_count_ + lanes_at_once;
   if (near_.size() < room) near_.resize(room + room / 2);
-  near_count_ = static_cast<std::size_t>(
-      sweeps.touching[D - 2]({.places = grains.places(),
-                              .pairs = inner_.data(),
-                              .numbers = inner_number_.data(),
-                              .last = static_cast<std::ptrdiff_t>(inner_count_),
-                              .reach = static_cast<float>(2.0 * grains.largest_radius()),
-                              .radii = grains.mixed() ? grains.radii() : nullptr,
-                              .slack = slack},
-                             near_.data()));
+  near_count_ =
+      static_cast<std::size_t>(sweeps.touching[D - 2]({.places = grains.places(),
+                                                       .pairs = inner_.data(),
+                                                       .numbers = inner_number_.data(),
+                                                       .last = static_cast<std::ptrdiff_t>(inner_count_),
+                                                       .reach = static_cast<float>(2.0 * grains.largest_radius()),
+                                                       .radii = grains.mixed() ? grains.radii() : nullptr,
+                                                       .slack = slack},
+                                                      near_.data()));
 }
 
 template <int D>

@@ -1,5 +1,5 @@
-/// @file The pairs of one block of grains with all others that may touch before any of them has moved further than it is
-/// allowed to, and those of them that may touch soon.
+/// @file The pairs of one block of grains with all others that may touch before any of them has moved further than it
+/// is allowed to, and those of them that may touch soon.
 ///
 /// A pair is in the list where the distance is at most both radii and what both may move: none that touches can be
 /// missing while all keep to it.
@@ -16,8 +16,8 @@ namespace grainstep::dem::native {
 
 /// Radius and what a grain may move. Arrays have lanes_at_once more than there are grains.
 struct Reach {
-  std::vector<float> of;           ///< m
-  float equal_and_slow = 0.0F;     ///< m, of every slow grain where sizes are equal; else 0
+  std::vector<float> of;        ///< m
+  float equal_and_slow = 0.0F;  ///< m, of every slow grain where sizes are equal; else 0
 };
 
 template <int D>

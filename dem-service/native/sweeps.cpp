@@ -86,8 +86,8 @@ template <int D, bool Own, bool Numbered>
     const Pair* pairs = search.pairs + k;
     if constexpr (Own) within = squared(_mm256_add_ps(summed_radii(search.radii, pairs), slack));
     const int near = less(squared_distances<D>(search.places, pairs), within) & lanes_below(search.last - k);
-    const __m256i numbers = Numbered ? _mm256_loadu_si256(reinterpret_cast<const __m256i*>(search.numbers + k))
-                                     : counted_from(k);
+    const __m256i numbers =
+        Numbered ? _mm256_loadu_si256(reinterpret_cast<const __m256i*>(search.numbers + k)) : counted_from(k);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(found + count), gathered(numbers, near));
     count += __builtin_popcount(static_cast<unsigned>(near));
   }

@@ -34,9 +34,9 @@ struct PairSearch {
   const Pair* pairs = nullptr;
   const std::uint32_t* numbers = nullptr;  ///< what is written of each; null: where it stands
   std::ptrdiff_t first = 0, last = 0;      ///< those that are looked at
-  float reach = 0.0F;            ///< m, of two grains
-  const float* radii = nullptr;  ///< m, of each grain, read instead of `reach` where it is not null
-  float slack = 0.0F;            ///< m, is added
+  float reach = 0.0F;                      ///< m, of two grains
+  const float* radii = nullptr;            ///< m, of each grain, read instead of `reach` where it is not null
+  float slack = 0.0F;                      ///< m, is added
 };
 
 /// Grains [first, last); none where that is no range.

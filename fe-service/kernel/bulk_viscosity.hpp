@@ -85,8 +85,7 @@ void resist_row(RowSweep& row, const BulkViscosity& law, double* stress, const M
   }
   row.viscosity = 0.0;
   for (const double found : viscosity) row.viscosity = found > row.viscosity ? found : row.viscosity;
-  assemble(row.upper_force.x, upper.left_x, upper.right_x, row.quads, false);
-  assemble(row.upper_force.y, upper.left_y, upper.right_y, row.quads, false);
+  if (!row.leave_upper) finish_upper_row(row, false);
   assemble(row.lower_force.x, lower.left_x, lower.right_x, row.quads, false);
   assemble(row.lower_force.y, lower.left_y, lower.right_y, row.quads, false);
 }

@@ -18,6 +18,8 @@ constexpr Sweeps<Law...> sweeps(LawList<Law...>) {
   return {Sweep<Law>{&sweep<Law, PlaneStrain>, &sweep<Law, Axisymmetric>}...};
 }
 
+void finish_upper(RowSweep& row) { finish_upper_row(row, row.first_row); }
+
 template <class Measure>
 void resist(RowSweep& row, const BulkViscosity& law, double* stress, const Measure& measure) {
   resist_row(row, law, stress, measure);
@@ -52,7 +54,7 @@ void drift(double* __restrict position, const double* __restrict velocity, doubl
 #define GS_TEXT(a) GS_TEXT_(a)
 
 extern const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA);
-constinit const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {GS_TEXT(GRAINSTEP_FE_ISA), sweeps(Laws{}), kResist,
-                                                               kLargestFrequency,         &kick,          &drift};
+constinit const Kernels GS_JOIN(kernels_, GRAINSTEP_FE_ISA) = {
+    GS_TEXT(GRAINSTEP_FE_ISA), sweeps(Laws{}), &finish_upper, kResist, kLargestFrequency, &kick, &drift};
 
 }  // namespace grainstep::fe

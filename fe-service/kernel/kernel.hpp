@@ -30,6 +30,7 @@ struct RowSweep : RowOutcome {
   NodeRow upper, lower, centre;
   ForceRow upper_force, lower_force, centre_force;
   bool first_row = false;     ///< upper_force is set instead of added to; lower_force is always set
+  bool leave_upper = false;   ///< to upper_force nothing is done yet, but by Kernels::finish_upper with this scratch
   double* state = nullptr;    ///< layout.hpp
   double* scratch = nullptr;  ///< scratch_size(quads) doubles, aligned
   int quads = 0;
@@ -102,6 +103,8 @@ struct LargestFrequency {
 struct Kernels {
   const char* name;
   Laws::Apply<Sweeps> sweep;
+  /// The forces on the upper corners of a row that left them.
+  void (*finish_upper)(RowSweep& row);
   Resist resist;
   LargestFrequency largest_frequency;
   /// velocity += weight * force * inverse_mass

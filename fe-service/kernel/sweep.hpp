@@ -236,6 +236,12 @@ GS_ALWAYS_INLINE Contributions contributions(double* scratch, int quads, int whi
   return {rows[0], rows[1], rows[2], rows[3]};
 }
 
+GS_ALWAYS_INLINE void finish_upper_row(RowSweep& row, bool set) {
+  const Contributions upper = contributions(row.scratch, row.quads, 0);
+  assemble(row.upper_force.x, upper.left_x, upper.right_x, row.quads, set);
+  assemble(row.upper_force.y, upper.left_y, upper.right_y, row.quads, set);
+}
+
 template <class Law, class Measure>
 void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   const Contributions upper = contributions(row.scratch, row.quads, 0);
@@ -261,8 +267,7 @@ void sweep_row(RowSweep& row, const Law& law, const Measure& measure) {
   for (const double work : plastic_work) row.plastic_work += work;
   row.min_twice_area = min_twice_area[0];
   for (const double area : min_twice_area) row.min_twice_area = area < row.min_twice_area ? area : row.min_twice_area;
-  assemble(row.upper_force.x, upper.left_x, upper.right_x, row.quads, row.first_row);
-  assemble(row.upper_force.y, upper.left_y, upper.right_y, row.quads, row.first_row);
+  if (!row.leave_upper) finish_upper_row(row, row.first_row);
   assemble(row.lower_force.x, lower.left_x, lower.right_x, row.quads, true);
   assemble(row.lower_force.y, lower.left_y, lower.right_y, row.quads, true);
 }

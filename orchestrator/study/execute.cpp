@@ -124,8 +124,11 @@ class Executor {
     const fs::path scene = directory / "scene.yaml";
     results::write_atomically(
         scene, "# Point '" + point.id + "' of " + plan_.file.filename().string() + "\n" + point.preparation.yaml);
-    std::vector<std::string> arguments = {"run",     scene.string(), "--out",   directory.string(),
-                                          "--force", "--quiet",      "--ranks", std::to_string(how_.ranks), "--threads", "1"};
+    std::vector<std::string> arguments = {"run",       scene.string(),
+                                          "--out",     directory.string(),
+                                          "--force",   "--quiet",
+                                          "--ranks",   std::to_string(how_.ranks),
+                                          "--threads", "1"};
     if (how_.allow_program) arguments.emplace_back("--allow-program");
     if (how_.allow_deck) arguments.emplace_back("--allow-deck");
     run.process = std::make_unique<process::ChildProcess>(

@@ -46,6 +46,7 @@ inline void set_core(scene::Structure& structure, double normalised_strength) {
   keys.set_densification(scene::Core::DENSIFICATION_LOGARITHMIC);
   keys.set_densified_slope(0.1);
   keys.set_shock_width(0.1);
+  keys.set_shear_ratio(1.0);
 }
 
 /// The defaults of the scene's keys.

@@ -62,8 +62,7 @@ class Cloud {
     std::vector<Pair> around(count + lanes_at_once);
     const std::vector<float> reach(count + lanes_at_once, 2e-3F);
     const Range all{0, count};
-    const std::ptrdiff_t neighbours =
-        sweeps_.near[D - 2]({grains_.places(), reach.data(), 11, &all, 1}, around.data());
+    const std::ptrdiff_t neighbours = sweeps_.near[D - 2]({grains_.places(), reach.data(), 11, &all, 1}, around.data());
     for (std::ptrdiff_t n = 0; n < neighbours; ++n) out.push_back(around[static_cast<std::size_t>(n)].second);
     return out;
   }

@@ -255,7 +255,8 @@ TEST_P(HandPlayed, WhatComesAfterTheEndOnTheShortPathEndsNothingMore) {
   structure_.messages_->send(report(0));
   int heard = 0;
   const auto hear = [&heard](Peer&, const wire::Frame&) { ++heard; };
-  EXPECT_NO_THROW(hub_.run(hear, [&heard] { return heard == 1; }, Hub::within(grainstep::testing::patience_s)));
+  EXPECT_NO_THROW(hub_.run(
+      hear, [&heard] { return heard == 1; }, Hub::within(grainstep::testing::patience_s)));
 }
 
 }  // namespace
