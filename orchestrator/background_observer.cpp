@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "participant/give_way.hpp"
+
 namespace grainstep::orchestrator {
 namespace {
 
@@ -64,6 +66,7 @@ void BackgroundObserver::put(Event event, std::size_t bytes, Wake wake) {
 }
 
 void BackgroundObserver::work() {
+  participant::give_way_to_all();  // who is too far behind is waited for: put()
   std::vector<Event> events;
   std::unique_lock lock(mutex_);
   while (true) {

@@ -9,4 +9,8 @@ namespace grainstep::participant {
 /// system does not allow it, and none where cores are free.
 void give_way_to_messages();
 
+/// The same for a thread that others seldom wait for, such as one that writes files: it also gives way to whoever
+/// computes, and takes what cores they leave while they wait for each other.
+void give_way_to_all();
+
 }  // namespace grainstep::participant

@@ -40,6 +40,11 @@ double sum_of(const double (&lanes)[batch_lanes]) {
   return sum;
 }
 
+/// The two components of something in the plane, loaded and stored as one; aligned like a double.
+using Two [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
+
+Two two_at(const double* at) { return *reinterpret_cast<const Two*>(at); }
+
 template <int D>
 double squared_distance(const double* a, const double* b) {
   double sum = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
@@ -174,20 +179,33 @@ void PairContacts::sweep(const PairArrays& particles, double grown, std::span<co
 template <int D, bool Equal>
 std::size_t PairContacts::find_touching(const PairArrays& particles, std::span<const std::uint32_t> near) {
   const double* const position = particles.position;
+  const double* const radius = particles.radius;
   const std::ptrdiff_t stride = particles.stride;
+  const Pair* const pairs = pairs_.data();
   std::uint32_t* const number = now_.pair.data() + now_.size;
-  const double equal = equal_radius_ + equal_radius_;
+  double(*const branch)[batch_capacity] = batch_.branch;
+  double reach = equal_radius_ + equal_radius_;
   std::size_t looked_at = 0;
   int count = 0;
   while (looked_at < near.size() && count < batch_capacity) {
     const std::uint32_t k = near[looked_at++];
-    const auto [i, j] = pairs_[k];
+    const auto [i, j] = pairs[k];
     const double* a = position + stride * i;
     const double* b = position + stride * j;
-    const double reach = Equal ? equal : particles.radius[i] + particles.radius[j];
-    for (int c = 0; c < D; ++c) batch_.branch[c][count] = a[c] - b[c];
+    if constexpr (!Equal) reach = radius[i] + radius[j];
+    double squared = 0.0;
+    if constexpr (D == 2) {
+      const Two apart = two_at(a) - two_at(b);
+      const Two squares = apart * apart;
+      branch[0][count] = apart[0];
+      branch[1][count] = apart[1];
+      squared = squares[0] + squares[1];
+    } else {
+      for (int c = 0; c < D; ++c) branch[c][count] = a[c] - b[c];
+      squared = squared_distance<D>(a, b);
+    }
     number[count] = k;
-    count += squared_distance<D>(a, b) < reach * reach ? 1 : 0;
+    count += squared < reach * reach ? 1 : 0;
   }
   batch_.count = count;
   now_.size += static_cast<std::size_t>(count);
@@ -197,25 +215,34 @@ std::size_t PairContacts::find_touching(const PairArrays& particles, std::span<c
 /// The rest of what the kernel needs to know of the batch's pairs.
 template <int D, bool Friction, bool Equal>
 void PairContacts::gather(const PairArrays& particles, std::size_t first_contact) {
-  const std::ptrdiff_t stride = particles.stride;
+  const PairArrays of = particles;  // of their own: what is written could be theirs
+  const Pair* const pairs = pairs_.data();
   const std::uint32_t* const number = now_.pair.data() + first_contact;
+  PairBatch& batch = batch_;
+  const int count = batch.count;
   double radius[2] = {equal_radius_, equal_radius_};
-  for (int l = 0; l < batch_.count; ++l) {
-    const auto [i, j] = pairs_[number[l]];
+  for (int l = 0; l < count; ++l) {
+    const auto [i, j] = pairs[number[l]];
     if constexpr (!Equal) {
-      radius[0] = particles.radius[i];
-      radius[1] = particles.radius[j];
-      batch_.reach[l] = radius[0] + radius[1];
-      batch_.effective_mass[l] = particles.mass[i] * particles.mass[j] / (particles.mass[i] + particles.mass[j]);
+      radius[0] = of.radius[i];
+      radius[1] = of.radius[j];
+      batch.reach[l] = radius[0] + radius[1];
+      batch.effective_mass[l] = of.mass[i] * of.mass[j] / (of.mass[i] + of.mass[j]);
     }
-    const double* v = particles.velocity + stride * i;
-    const double* w = particles.velocity + stride * j;
-    for (int c = 0; c < D; ++c) batch_.velocity[c][l] = v[c] - w[c];
+    const double* v = of.velocity + of.stride * i;
+    const double* w = of.velocity + of.stride * j;
+    if constexpr (D == 2) {
+      const Two rate = two_at(v) - two_at(w);
+      batch.velocity[0][l] = rate[0];
+      batch.velocity[1][l] = rate[1];
+    } else {
+      for (int c = 0; c < D; ++c) batch.velocity[c][l] = v[c] - w[c];
+    }
     if constexpr (Friction) {
-      const double* p = particles.spin + stride * i;
-      const double* q = particles.spin + stride * j;
+      const double* p = of.spin + of.stride * i;
+      const double* q = of.spin + of.stride * j;
       for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
-        batch_.rolling[D == 2 ? 0 : c][l] = radius[0] * p[c] + radius[1] * q[c];
+        batch.rolling[D == 2 ? 0 : c][l] = radius[0] * p[c] + radius[1] * q[c];
       }
     }
   }
@@ -228,21 +255,21 @@ std::size_t PairContacts::hand_on(const PairArrays& particles, double grown, std
                                   std::size_t old) {
   constexpr int values = history_layout(D, Friction).values;
   const std::uint32_t* const number = now_.pair.data() + first_contact;
-  const double* before[values];
-  double* now[values];
-  for (int h = 0; h < values; ++h) {
-    before[h] = before_.value[h].data();
-    now[h] = now_.value[h].data() + first_contact;
-  }
   const std::uint32_t* const last = before_.pair.data();
   const std::size_t none = before_.size;  // what stands behind the last has no history
-  for (int l = 0; l < batch_.count; ++l) {
+  const int count = batch_.count;
+  std::size_t source[batch_capacity];
+  for (int l = 0; l < count; ++l) {
     const std::uint32_t k = number[l];
     while (last[old] < k) finish<D, Friction>(particles, grown, old++);
     const bool lasting = last[old] == k;
-    const std::size_t source = lasting ? old : none;
-    for (int h = 0; h < values; ++h) now[h][l] = before[h][source];
+    source[l] = lasting ? old : none;
     old += lasting ? 1 : 0;
+  }
+  for (int h = 0; h < values; ++h) {
+    const double* const before = before_.value[h].data();
+    double* const now = now_.value[h].data() + first_contact;
+    for (int l = 0; l < count; ++l) now[l] = before[source[l]];
   }
   return old;
 }
@@ -260,28 +287,54 @@ void PairContacts::flush(const PairArrays& particles, double grown, std::size_t 
   double* history[most_history_values] = {};
   for (int h = 0; h < layout.values; ++h) history[h] = now_.value[h].data() + first_contact;
   kernel_(law_, grown, batch_, history, sums_);
-  const std::uint32_t* numbers = now_.pair.data() + first_contact;
   outside_.reserve(static_cast<std::size_t>(count) + 1);
+  equal_radius_ > 0.0 ? add_forces<D, Friction, true>(particles, first_contact)
+                      : add_forces<D, Friction, false>(particles, first_contact);
+  batch_.count = 0;
+}
+
+template <int D, bool Friction, bool Equal>
+void PairContacts::add_forces(const PairArrays& particles, std::size_t first_contact) {
+  constexpr HistoryLayout layout = history_layout(D, Friction);
+  constexpr int first_turn = D == 2 ? 2 : 0;
+  const PairArrays of = particles;
+  const Pair* const pairs = pairs_.data();
+  const std::uint32_t* const number = now_.pair.data() + first_contact;
+  const double(*const force)[batch_capacity] = batch_.force;
+  const double* turning[3] = {};
+  for (int c = first_turn; Friction && c < 3; ++c) turning[c] = now_.value[layout.torque + c - first_turn].data() + first_contact;
+  double radius[2] = {equal_radius_, equal_radius_};
+  double* outside = outside_.next();
+  const int count = batch_.count;
   for (int l = 0; l < count; ++l) {
-    const auto [i, j] = pairs_[numbers[l]];
-    const bool inside = j >= particles.first && j < particles.last;
-    double* on_first = particles.force + particles.force_stride * i;
-    double* on_second = inside ? particles.force + particles.force_stride * j : outside_.next();
-    const double radius[2] = {equal_radius_ > 0.0 ? equal_radius_ : particles.radius[i],
-                              equal_radius_ > 0.0 ? equal_radius_ : particles.radius[j]};
-    for (int c = 0; c < D; ++c) on_first[c] += batch_.force[c][l];
-    for (int c = 0; c < D; ++c) on_second[c] -= batch_.force[c][l];
+    const auto [i, j] = pairs[number[l]];
+    if constexpr (!Equal) {
+      radius[0] = of.radius[i];
+      radius[1] = of.radius[j];
+    }
+    const bool inside = j >= of.first && j < of.last;
+    double* on_first = of.force + of.force_stride * i;
+    double* on_second = inside ? of.force + of.force_stride * j : outside;
+    if constexpr (D == 2) {
+      const Two both{force[0][l], force[1][l]};
+      *reinterpret_cast<Two*>(on_first) += both;
+      *reinterpret_cast<Two*>(on_second) -= both;
+    } else {
+      for (int c = 0; c < D; ++c) on_first[c] += force[c][l];
+      for (int c = 0; c < D; ++c) on_second[c] -= force[c][l];
+    }
     if constexpr (Friction) {
-      double* turns_second = inside ? particles.torque + particles.force_stride * j : outside_.next() + 3;
-      for (int c = D == 2 ? 2 : 0; c < 3; ++c) {
-        const double torque = history[layout.torque + (D == 2 ? 0 : c)][l];
-        particles.torque[particles.force_stride * i + c] -= radius[0] * torque;
-        turns_second[c] -= radius[1] * torque;
+      double* turns_first = of.torque + of.force_stride * i;
+      double* turns_second = inside ? of.torque + of.force_stride * j : outside + 3;
+      for (int c = first_turn; c < 3; ++c) {
+        turns_first[c] -= radius[0] * turning[c][l];
+        turns_second[c] -= radius[1] * turning[c][l];
       }
     }
-    if (!inside) outside_.add(j);
+    if (inside) continue;
+    outside_.add(j);
+    outside = outside_.next();
   }
-  batch_.count = 0;
 }
 
 /// A contact that has ended: its last forces still worked through half of the interval.

@@ -99,6 +99,8 @@ class PairContacts {
   std::size_t hand_on(const PairArrays& particles, double grown, std::size_t first_contact, std::size_t old);
   template <int D, bool Friction>
   void flush(const PairArrays& particles, double grown, std::size_t first_contact);
+  template <int D, bool Friction, bool Equal>
+  void add_forces(const PairArrays& particles, std::size_t first_contact);
   template <int D, bool Friction>
   void finish(const PairArrays& particles, double grown, std::size_t contact);
 
