@@ -206,19 +206,53 @@ Figures between_threads(bool through_hub, int bytes, int samples) {
   return figures;
 }
 
-/// Parses all that passes, every millisecond, as the orchestrator does.
-void listen(const transport::SharedPath& path) {
-  using Way = transport::SharedPath::Way;
-  transport::SharedChannel forces_way(path, Way::forces, "driver");
-  transport::SharedChannel kinematics_way(path, Way::kinematics, "answerer");
-  wire::MessageChannel forth(forces_way, "driver");
-  wire::MessageChannel back(kinematics_way, "answerer");
-  wire::Forces forces;
-  wire::Kinematics kinematics;
-  while (true) {
-    while (const wire::Frame* frame = forth.receive(Clock::now())) forth.take(*frame, forces);
-    while (const wire::Frame* frame = back.receive(Clock::now())) back.take(*frame, kinematics);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+/// Parses all that passes, as the orchestrator does.
+class Listening {
+ public:
+  explicit Listening(const transport::SharedPath& path)
+      : forces_way_(path, transport::SharedPath::Way::forces, "driver"),
+        kinematics_way_(path, transport::SharedPath::Way::kinematics, "answerer") {}
+
+  void hear() {
+    while (const wire::Frame* frame = forth_.receive(Clock::now())) forth_.take(*frame, forces_);
+    while (const wire::Frame* frame = back_.receive(Clock::now())) back_.take(*frame, kinematics_);
+  }
+
+ private:
+  transport::SharedChannel forces_way_, kinematics_way_;
+  wire::MessageChannel forth_{forces_way_, "driver"};
+  wire::MessageChannel back_{kinematics_way_, "answerer"};
+  wire::Forces forces_;
+  wire::Kinematics kinematics_;
+};
+
+/// All three in one thread, one after the other: nobody waits, so that what is executed can be counted.
+void exchange_in_turn(int bytes, int samples) {
+  using transport::SharedPath;
+  const auto nothing = [] {};
+  const SharedPath path = SharedPath::create(static_cast<std::uint64_t>(bytes) + 100);
+  transport::SharedChannel driver_way(path, SharedPath::Way::forces, "answerer", nothing);
+  transport::SharedChannel answerer_way(path, SharedPath::Way::kinematics, "driver", nothing);
+  wire::MessageChannel driver(driver_way, "answerer");
+  wire::MessageChannel answerer(answerer_way, "driver");
+  Listening listening(path);
+  wire::Forces sent;
+  wire::Forces received;
+  wire::Kinematics answer;
+  for (int i = 0; i < bytes / 8; ++i) sent.add_impulse(1e-3 * i);
+  const auto heard = [](wire::MessageChannel& channel) {
+    const wire::Frame* frame = channel.receive(Clock::now());
+    return frame != nullptr ? frame : throw PeerError("exchange", "silent");
+  };
+  for (int i = 0; i < samples; ++i) {
+    sent.set_window(static_cast<std::uint64_t>(i));
+    driver.send(sent);
+    answerer.take(*heard(answerer), received);
+    answer.set_window(received.window() + 1);
+    answer.mutable_position()->CopyFrom(received.impulse());
+    answerer.send(answer);
+    driver.take(*heard(driver), answer);
+    listening.hear();
   }
 }
 
@@ -232,7 +266,13 @@ Figures in_shared_memory(int bytes, int samples) {
                               transport::SharedChannel channel(mine, SharedPath::Way::kinematics, "driver", nothing);
                               answer(channel);
                             }),
-                            in_process_of_its_own([&] { listen(path); })};
+                            in_process_of_its_own([&] {
+                              Listening listening(path);
+                              while (true) {
+                                listening.hear();
+                                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                              }
+                            })};
   transport::SharedChannel channel(path, SharedPath::Way::forces, "answerer", nothing);
   const Figures figures = drive(channel, bytes, samples);
   for (const pid_t child : children) {
@@ -280,7 +320,14 @@ int main(int argc, char** argv) {
   CLI::App app("Microseconds per exchange");
   int samples = 2000;
   app.add_option("--samples", samples, "Exchanges measured per figure")->capture_default_str();
+  int in_turn = 0;
+  app.add_option("--in-turn", in_turn,
+                 "Only this: so many exchanges of 10 kB in shared memory by one thread, unmeasured");
   CLI11_PARSE(app, argc, argv);
+  if (in_turn > 0) {
+    exchange_in_turn(10'000, in_turn);
+    return 0;
+  }
   const TemporaryDirectory directory;
   transport::make_keys(directory.path() / "keys");
   print_table(directory.path().string(), samples);

@@ -302,7 +302,8 @@ void PairContacts::add_forces(const PairArrays& particles, std::size_t first_con
   const std::uint32_t* const number = now_.pair.data() + first_contact;
   const double(*const force)[batch_capacity] = batch_.force;
   const double* turning[3] = {};
-  for (int c = first_turn; Friction && c < 3; ++c) turning[c] = now_.value[layout.torque + c - first_turn].data() + first_contact;
+  for (int c = first_turn; Friction && c < 3; ++c)
+    turning[c] = now_.value[layout.torque + c - first_turn].data() + first_contact;
   double radius[2] = {equal_radius_, equal_radius_};
   double* outside = outside_.next();
   const int count = batch_.count;
