@@ -1,21 +1,25 @@
 /// @file What a step of the particles costs: the slug with our surface contact, mirror plane and ledger, in LAMMPS and
 /// in the native engine, against the same slug in plain LAMMPS with two `fix wall/gran`. Runs alternate, so that all
-/// see the same machine.
-///     bench_dem_step [diameter in mm] [first step] [steps] [repetitions] [native|lammps|plain for one alone]
-///                    [threads of the native one]
+/// see the same machine, each in a process of its own, as they are in use: what another one leaves of the heap costs.
+///     bench_dem_step --diameter 1 --first 100 --steps 25500 --repetitions 3
 /// Times are CPU seconds of this process, or with more than one thread those of the clock; the median of the
 /// repetitions counts.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "../tests/unit/dem-service/engine_rig.hpp"
+#include "../tests/unit/dem-service/slice_rig.hpp"
 #include "bench/plain_slug.hpp"
 #include "dem-service/native/impactor.hpp"
 
@@ -88,37 +92,86 @@ double plain(const Job& job) {
   return (seconds(job) - began) / static_cast<double>(job.steps);
 }
 
+/// What `run` returns, computed by a child.
+double in_a_process_of_its_own(const std::function<double()>& run) {
+  int ends[2];
+  if (::pipe(ends) != 0) throw std::runtime_error("pipe");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const double found = run();
+    ::_exit(::write(ends[1], &found, sizeof found) == sizeof found ? 0 : 1);
+  }
+  ::close(ends[1]);
+  double found = 0.0;
+  const bool said = ::read(ends[0], &found, sizeof found) == sizeof found;
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  if (!said) throw std::runtime_error("a run did not come to its end");
+  return found;
+}
+
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
 }
 
+/// The small scene's discs before a rigid wall, with a mirror.
+wire::Setup discs(double diameter) {
+  wire::Setup setup = rig::reference_setup();
+  setup.set_mirror(true);
+  scene::Slug& slug = rig::slug_of(setup);
+  slug.set_half_width(0.1);
+  slug.set_height(0.3);
+  slug.mutable_particle()->set_diameter(diameter);
+  rig::set_flat_surface(setup, 0.5, 320);
+  return setup;
+}
+
+/// A slice of the plate's spheres before a rigid disc.
+wire::Setup spheres(double diameter) {
+  wire::Setup setup = rig::slice_setup(10.0 * rig::degree);
+  scene::Slug& slug = rig::slug_of(setup);
+  slug.set_half_width(0.1);
+  slug.set_height(0.15);
+  slug.set_speed(320.8);
+  slug.mutable_particle()->set_diameter(diameter);
+  slug.mutable_particle()->set_normal_stiffness(3.65e10 * diameter);
+  rig::set_rings(setup, 0.5, 400);
+  return setup;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto argument = [&](int i, double otherwise) { return argc > i ? std::atof(argv[i]) : otherwise; };
+  CLI::App app("Nanoseconds per particle and step");
+  double diameter = 1.0;
+  int repetitions = 3;
+  bool of_spheres = false;
+  std::vector<std::string> only;
   Job job;
-  job.setup = rig::reference_setup();
-  job.setup.set_mirror(true);
-  scene::Slug& slug = rig::slug_of(job.setup);
-  slug.set_half_width(0.1);
-  slug.set_height(0.3);
-  slug.mutable_particle()->set_diameter(argument(1, 1.0) * 1e-3);
-  rig::set_flat_surface(job.setup, 0.5, 320);
+  job.warm_up = 1500;
+  job.steps = 2000;
+  app.add_option("--diameter", diameter, "mm")->capture_default_str();
+  app.add_flag("--spheres", of_spheres, "Spheres in a slice instead of discs; plain LAMMPS has no part in it");
+  app.add_option("--first", job.warm_up, "Steps before those that count")->capture_default_str();
+  app.add_option("--steps", job.steps, "Steps that count")->capture_default_str();
+  app.add_option("--repetitions", repetitions, "Runs of each, in turn")->capture_default_str();
+  app.add_option("--engine", only, "plain, lammps, native: these alone");
+  app.add_option("--threads", job.threads, "Of the native engine")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  job.setup = of_spheres ? spheres(diameter * 1e-3) : discs(diameter * 1e-3);
   const SlugModel model = rig::model_of(job.setup);
   job.dt = model.preferred_step;
-  job.warm_up = static_cast<std::uint64_t>(argument(2, 1500));
-  job.steps = static_cast<std::uint64_t>(argument(3, 2000));
-  const std::string only = argc > 5 ? argv[5] : "";
-  job.threads = static_cast<int>(argument(6, 1));
   const std::pair<std::string, std::function<double()>> engines[] = {
       {"plain", [&job] { return plain(job); }},
       {"lammps", [&job] { return coupled(job, run_lammps); }},
       {"native", [&job] { return coupled(job, run_native); }}};
   std::map<std::string, std::vector<double>> times;
-  for (int i = 0; i < static_cast<int>(argument(4, 3)); ++i) {
+  for (int i = 0; i < repetitions; ++i) {
     for (const auto& [name, run] : engines) {
-      if (only.empty() || only == name) times[name].push_back(run() * 1e9 / static_cast<double>(model.particles));
+      if (of_spheres && name == "plain") continue;
+      if (!only.empty() && std::find(only.begin(), only.end(), name) == only.end()) continue;
+      times[name].push_back(in_a_process_of_its_own(run) * 1e9 / static_cast<double>(model.particles));
     }
   }
   std::printf("%llu particles, ns per particle and step:", static_cast<unsigned long long>(model.particles));
