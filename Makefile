@@ -92,6 +92,7 @@ golden: build
 
 bench: build
 	@$(PYTHON) bench/run --build $(BUILD) $(BENCH_OPTIONS)
+	@$(PYTHON) bench/engines --build $(BUILD) $(BENCH_OPTIONS)
 
 bench-plates: build
 	@$(PYTHON) bench/plates --build $(BUILD)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "base/error.hpp"
@@ -58,15 +59,29 @@ void print_cost(const Preparation& p, int ranks) {
               duration_text(cost->structure).c_str());
 }
 
-// For this scene: its size and duration may be other ones than the measured.
-std::string time_text(const scene::Scene& scene, const RunOptions& options) {
+// For this scene: its size and duration may be other ones than the measured. Nothing where it cannot be computed here:
+// too few particles for this slug, too coarse a mesh for this beam, a program that is not there.
+std::optional<double> seconds_of(const scene::Scene& scene, const RunOptions& options) {
   try {
     const auto cost = cost_of(prepare(scene, options));
-    const double seconds = cost ? std::max(cost->impactor, cost->structure) : 0.0;
-    return seconds < 1.0 ? "about a second" : "about " + duration_text(seconds);
-  } catch (const InputError&) {  // too few particles for this slug, too coarse a mesh for this beam
-    return "not possible here";
+    return cost ? std::max(cost->impactor, cost->structure) : 0.0;
+  } catch (const InputError&) {
+    return std::nullopt;
   }
+}
+
+std::string about(double seconds) { return seconds < 1.0 ? "about a second" : "about " + duration_text(seconds); }
+
+// The errors are those of the laws, the mesh and the sizes: of either engine.
+std::string time_text(const scene::Scene& scene, const RunOptions& options) {
+  const std::optional<double> seconds = seconds_of(scene, options);
+  if (!seconds) return "not possible here";
+  const bool other = scene.impactor().engine() == scene::Impactor::ENGINE_LAMMPS && options.ranks == 1;
+  if (!other || *seconds < 1.0) return about(*seconds);
+  scene::Scene native = scene;
+  native.mutable_impactor()->set_engine(scene::Impactor::ENGINE_NATIVE);
+  const std::optional<double> sooner = seconds_of(native, options);
+  return about(*seconds) + (sooner ? ", with impactor.engine: native " + duration_text(*sooner) : "");
 }
 
 void print_recommendation(double percent, const scene::Scene& scene, const RunOptions& options) {

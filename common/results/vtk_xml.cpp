@@ -53,7 +53,8 @@ class Document {
     const double* const from = values.data();
     const auto count = static_cast<std::size_t>(values.size());
     if (components == 2) {
-      array<float>(name, 3, count / 2 * 3, [from](std::size_t n) { return n % 3 == 2 ? 0.0 : from[n / 3 * 2 + n % 3]; });
+      array<float>(name, 3, count / 2 * 3,
+                   [from](std::size_t n) { return n % 3 == 2 ? 0.0 : from[n / 3 * 2 + n % 3]; });
     } else {
       array<float>(name, components, count, [from](std::size_t n) { return from[n]; });
     }

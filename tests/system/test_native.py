@@ -1,9 +1,10 @@
 """The native engine of the particles: the same event as LAMMPS's, and what is promised of its bits."""
+import subprocess
 import unittest
 
 import h5py
 import numpy as np
-from runs import SOURCE, Run, datasets
+from runs import BIN, SOURCE, Run, datasets
 
 NATIVE = ("--set", "impactor.engine=native")
 PLATE = SOURCE / "configs/small/plate-quick.yaml"
@@ -50,6 +51,15 @@ class Native(unittest.TestCase):
                 last = sorted(file["snapshots/particles"])[-1]
                 places.append(file[f"snapshots/particles/{last}/position"][()])
         self.assertTrue(np.array_equal(*places))
+
+    def test_check_tells_what_it_would_save(self):
+        """The errors of a setting are those of either engine; its time is not."""
+        said = {engine: subprocess.run([BIN / "grainstep", "check", SOURCE / "configs/small/beam-monolithic.yaml",
+                                        "--set", f"impactor.engine={engine}"], check=True, capture_output=True,
+                                       text=True).stdout for engine in ("lammps", "native")}
+        line = next(line for line in said["lammps"].splitlines() if line.startswith("for errors below 0.5%"))
+        self.assertRegex(line, r"D = 0\.5 mm, mesh h/8 .*: about .*, with impactor\.engine: native ")
+        self.assertNotIn("impactor.engine", said["native"])
 
     def test_ranks_are_refused(self):
         run = Run(*NATIVE, "--ranks", "2")
