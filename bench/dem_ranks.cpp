@@ -26,19 +26,6 @@ double now() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// The reference plate's slug (configs/small/plate-monolithic.yaml) at another diameter, on a rigid disc.
-wire::Setup slug(double diameter) {
-  wire::Setup setup = rig::slice_setup(10.0 * rig::degree);
-  scene::Slug& slug = rig::slug_of(setup);
-  slug.set_half_width(0.1);
-  slug.set_height(0.15);
-  slug.set_speed(320.8);
-  slug.mutable_particle()->set_diameter(diameter);
-  slug.mutable_particle()->set_normal_stiffness(3.65e10 * diameter);
-  rig::set_rings(setup, 0.5, 400);
-  return setup;
-}
-
 /// Reads the clock at the end of every part.
 class TimedLink final : public participant::ImpactorLink {
  public:
@@ -129,7 +116,7 @@ int main(int argc, char** argv) {
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const double end = argument(2, 2.0);
   const auto parts = static_cast<std::uint64_t>(argument(4, 8.0));
-  Job job{slug(argument(1, 1.0) * 1e-3), {}, 0};
+  Job job{rig::plate_slug(argument(1, 1.0) * 1e-3), {}, 0};
   const SlugModel model = rig::model_of(job.setup);
   // Two steps a window, as `auto` takes them for the plate.
   const double window = 2.0 * model.preferred_step;

@@ -127,19 +127,6 @@ wire::Setup discs(double diameter) {
   return setup;
 }
 
-/// A slice of the plate's spheres before a rigid disc.
-wire::Setup spheres(double diameter) {
-  wire::Setup setup = rig::slice_setup(10.0 * rig::degree);
-  scene::Slug& slug = rig::slug_of(setup);
-  slug.set_half_width(0.1);
-  slug.set_height(0.15);
-  slug.set_speed(320.8);
-  slug.mutable_particle()->set_diameter(diameter);
-  slug.mutable_particle()->set_normal_stiffness(3.65e10 * diameter);
-  rig::set_rings(setup, 0.5, 400);
-  return setup;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -159,7 +146,7 @@ int main(int argc, char** argv) {
   app.add_option("--engine", only, "plain, lammps, native: these alone");
   app.add_option("--threads", job.threads, "Of the native engine")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  job.setup = of_spheres ? spheres(diameter * 1e-3) : discs(diameter * 1e-3);
+  job.setup = of_spheres ? rig::plate_slug(diameter * 1e-3) : discs(diameter * 1e-3);
   const SlugModel model = rig::model_of(job.setup);
   job.dt = model.preferred_step;
   const std::pair<std::string, std::function<double()>> engines[] = {

@@ -116,6 +116,15 @@ class Run:
         return json.loads((self.out / "summary.json").read_text())
 
 
+def ended(test, *options, **more):
+    """A run that has come to its end as it should, and is gone with the test."""
+    run = Run(*options, **more)
+    test.addCleanup(run.__exit__)
+    run.end()
+    test.assertEqual(run.code, 0, run.stderr)
+    return run
+
+
 LONG = ("--set", "time.end=1.5")  # five times the quick scene: time to look at it while it runs
 
 

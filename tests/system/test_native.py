@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 import numpy as np
-from runs import BIN, SOURCE, Run, datasets
+from runs import BIN, SOURCE, Run, datasets, ended
 
 NATIVE = ("--set", "impactor.engine=native")
 PLATE = SOURCE / "configs/small/plate-quick.yaml"
@@ -12,17 +12,10 @@ SHORT = ("--set", "time.end=0.1")
 
 
 class Native(unittest.TestCase):
-    def ended(self, *options, **more):
-        run = Run(*options, **more)
-        self.addCleanup(run.__exit__)
-        run.end()
-        self.assertEqual(run.code, 0, run.stderr)
-        return run
-
     def test_the_event_is_that_of_lammps(self):
         """The same particles at the same places: what differs is round-off, which grows as collisions go on. Five seeds
         scatter by 0.6% in both figures (docs/solver-pairs.md)."""
-        lammps, native = self.ended().summary(), self.ended(*NATIVE).summary()
+        lammps, native = ended(self).summary(), ended(self, *NATIVE).summary()
         for key in ("particles", "impactor_steps", "impactor_step", "impulse_number"):
             self.assertEqual(native[key], lammps[key], key)
         for key in ("peak_deflection", "transmitted_impulse"):
@@ -32,21 +25,21 @@ class Native(unittest.TestCase):
 
     def test_spheres_as_well(self):
         settings = ("--set", "impactor.slug.particle.diameter=5 mm", "--set", "structure.mesh.refinement=2")
-        lammps, native = self.ended(*settings, scene=PLATE).summary(), self.ended(*settings, *NATIVE, scene=PLATE).summary()
+        lammps, native = ended(self, *settings, scene=PLATE).summary(), ended(self, *settings, *NATIVE, scene=PLATE).summary()
         self.assertEqual(native["particles"], lammps["particles"])
         for key in ("peak_deflection", "transmitted_impulse"):
             self.assertAlmostEqual(native[key] / lammps[key], 1.0, delta=0.05, msg=key)
         self.assertLess(native["momentum_error"], 1e-12)
 
     def test_one_run_gives_the_bits_of_another(self):
-        one, other = (datasets(self.ended(*SHORT, *NATIVE).out / "results.h5") for _ in range(2))
+        one, other = (datasets(ended(self, *SHORT, *NATIVE).out / "results.h5") for _ in range(2))
         self.assertEqual(one, other)
 
     def test_what_is_reported_changes_nothing(self):
         """Sleepers are placed and velocities brought to t(n) for a report, and put back."""
         places = []
         for rows in (5, 200):
-            out = self.ended(*SHORT, *NATIVE, "--set", f"output.rows={rows}", "--set", "output.snapshots=2").out
+            out = ended(self, *SHORT, *NATIVE, "--set", f"output.rows={rows}", "--set", "output.snapshots=2").out
             with h5py.File(out / "results.h5") as file:
                 last = sorted(file["snapshots/particles"])[-1]
                 places.append(file[f"snapshots/particles/{last}/position"][()])

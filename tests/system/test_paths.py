@@ -2,7 +2,7 @@
 import pathlib
 import unittest
 
-from runs import AT_ONCE, LONG, SOURCE, Run, datasets, os, signal
+from runs import AT_ONCE, LONG, SOURCE, Run, datasets, ended, os, signal
 
 SHORT = ("--set", "time.end=0.1")
 SPRING = ("--set", f"structure.program={SOURCE}/examples/python/spring.py")
@@ -15,24 +15,17 @@ def shared_memory_of(process):
 
 
 class Paths(unittest.TestCase):
-    def ended(self, *options, **more):
-        run = Run(*options, **more)
-        self.addCleanup(run.__exit__)
-        run.end()
-        self.assertEqual(run.code, 0, run.stderr)
-        return run
-
     def test_both_give_the_same_bits(self):
-        runs = {path: self.ended(*SHORT, "--path", path) for path in ("hub", "shared")}
+        runs = {path: ended(self, *SHORT, "--path", path) for path in ("hub", "shared")}
         for path, run in runs.items():
             self.assertEqual(run.summary()["path"], path)
         self.assertEqual(*(datasets(run.out / "results.h5") for run in runs.values()))
 
     def test_the_short_one_is_taken_where_both_are_started_here(self):
-        self.assertEqual(self.ended(*SHORT).summary()["path"], "shared")
+        self.assertEqual(ended(self, *SHORT).summary()["path"], "shared")
 
     def test_a_participant_that_cannot_goes_through_the_orchestrator(self):
-        self.assertEqual(self.ended(*SHORT, *SPRING).summary()["path"], "hub")
+        self.assertEqual(ended(self, *SHORT, *SPRING).summary()["path"], "hub")
 
     def test_the_short_one_is_refused_where_a_participant_cannot(self):
         run = Run(*SHORT, *SPRING, "--path", "shared")

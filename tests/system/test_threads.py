@@ -2,7 +2,7 @@
 import pathlib
 import unittest
 
-from runs import LONG, Run, datasets
+from runs import LONG, Run, datasets, ended
 
 # Two blocks of grains, all of them awake from the start: the tail is faster than the head.
 BLOCKS = ("--set", "impactor.slug.particle.diameter=1.5 mm", "--set", "impactor.slug.tail_speed=120 m/s",
@@ -10,13 +10,6 @@ BLOCKS = ("--set", "impactor.slug.particle.diameter=1.5 mm", "--set", "impactor.
 
 
 class Threads(unittest.TestCase):
-    def ended(self, *options):
-        run = Run(*options)
-        self.addCleanup(run.__exit__)
-        run.end()
-        self.assertEqual(run.code, 0, run.stderr)
-        return run
-
     def threads_of(self, side, *options):
         """How many a side has in mid-run."""
         with Run(*LONG, *options) as run:
@@ -25,7 +18,7 @@ class Threads(unittest.TestCase):
 
     def test_both_sides_give_the_bits_of_one_thread(self):
         """Six for both: whichever is slower has more than one, and the other one, too, where it takes as long."""
-        one, six = self.ended(*BLOCKS, "--threads", "1"), self.ended(*BLOCKS, "--threads", "6")
+        one, six = ended(self, *BLOCKS, "--threads", "1"), ended(self, *BLOCKS, "--threads", "6")
         self.assertEqual(one.summary()["threads"], {"impactor": 1, "structure": 1})
         self.assertEqual(sum(six.summary()["threads"].values()), 6)
         self.assertEqual(*(datasets(run.out / "results.h5") for run in (one, six)))

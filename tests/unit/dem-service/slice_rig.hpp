@@ -29,6 +29,19 @@ inline void set_rings(wire::Setup& setup, double radius, int segments, double sl
   set_surface(setup, nodes);
 }
 
+/// The reference plate's slug (configs/small/plate-monolithic.yaml) at another diameter, m, on a rigid disc.
+inline wire::Setup plate_slug(double diameter) {
+  wire::Setup setup = slice_setup(10.0 * degree);
+  scene::Slug& slug = slug_of(setup);
+  slug.set_half_width(0.1);
+  slug.set_height(0.15);
+  slug.set_speed(320.8);
+  slug.mutable_particle()->set_diameter(diameter);
+  slug.mutable_particle()->set_normal_stiffness(3.65e10 * diameter);
+  set_rings(setup, 0.5, 400);
+  return setup;
+}
+
 struct Sphere {
   Vec3 position, velocity, spin;
 };
