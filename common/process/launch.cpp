@@ -43,7 +43,7 @@ fs::path find_program(const std::string& name) {
     }
     throw InputError(name + ": is not a program that can be run");
   }
-  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / name;
+  fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / name;
   if (is_program(beside)) {
     return beside;
   }

@@ -93,7 +93,7 @@ template <int D>
     return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(sums), 0xd8));
   } else {
     const __m256 from = _mm256_broadcast_ps(reinterpret_cast<const __m128*>(place));
-    const auto apart = [&](int k) {
+    const auto apart = [&](std::ptrdiff_t k) {
       const __m256 two = join(_mm_load_ps(others + 4 * k), _mm_load_ps(others + 4 * k + 16));
       return squared(_mm256_sub_ps(from, two));
     };

@@ -80,8 +80,8 @@ struct RingTriangle {
 /// As subtract_block, with the hoop strain; over 2 pi.
 GS_ALWAYS_INLINE void subtract_ring_block(const Elastic& law, const RingNode& a, const RingNode& b,
                                           const RingTriangle& t, int l, QuadMatrices<10>& m) {
-  const int i = a.number;
-  const int j = b.number;
+  const std::ptrdiff_t i = a.number;
+  const std::ptrdiff_t j = b.number;
   const double scale = 0.5 * t.radius / t.twice_area;
   const double same = law.mu * dot(a.g, b.g);
   const double sixth = law.lambda * (1.0 / 6.0);

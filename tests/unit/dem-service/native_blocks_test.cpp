@@ -50,9 +50,14 @@ ScriptedLink run_with(int threads, const wire::Setup& setup) {
 template <typename Message>
 std::string bytes_of(const std::vector<Message>& messages) {
   std::string bytes;
-  for (Message message : messages) {
-    if constexpr (requires { message.clear_timing(); }) message.clear_timing();
-    message.AppendToString(&bytes);
+  for (const Message& message : messages) {
+    if constexpr (requires(Message& timed) { timed.clear_timing(); }) {
+      Message untimed = message;
+      untimed.clear_timing();
+      untimed.AppendToString(&bytes);
+    } else {
+      message.AppendToString(&bytes);
+    }
   }
   return bytes;
 }
