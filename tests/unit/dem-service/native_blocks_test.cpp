@@ -51,7 +51,7 @@ template <typename Message>
 std::string bytes_of(const std::vector<Message>& messages) {
   std::string bytes;
   for (const Message& message : messages) {
-    if constexpr (requires(Message& timed) { timed.clear_timing(); }) {
+    if constexpr (requires(Message & timed) { timed.clear_timing(); }) {
       Message untimed = message;
       untimed.clear_timing();
       untimed.AppendToString(&bytes);
