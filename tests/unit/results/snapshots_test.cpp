@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "scratch.hpp"
 
 namespace grainstep::results {
@@ -71,6 +74,10 @@ TEST_F(SnapshotsTest, StructureIsReadByVtkAndByH5py) {
   const std::string seen = read_with("vtk", directory_.paraview() / "structure_0001.vtu");
   EXPECT_THAT(seen, HasSubstr("points 3 cells 1\ntypes [5]\n"));
   EXPECT_THAT(seen, HasSubstr("cell von_mises_stress [400000000.0]"));
+  std::ifstream file_of_vtk(directory_.paraview() / "structure_0001.vtu", std::ios::binary);
+  const std::string written{std::istreambuf_iterator<char>(file_of_vtk), {}};
+  EXPECT_THAT(written, HasSubstr("Float32"));
+  EXPECT_EQ(written.find("Float64"), std::string::npos) << "twice as long as need be";
   EXPECT_EQ(read_with("collection", directory_.path() / "structure.pvd"),
             "0 paraview/structure_0000.vtu\n1.2500000000000001e-05 paraview/structure_0001.vtu\n");
   const std::string arrays = read_with("hdf5", directory_.results());
