@@ -2,10 +2,15 @@
 // on both sides.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "contact/moving_surface.hpp"
+#include "dem-service/native/contacts.hpp"
 #include "engine_rig.hpp"
 #include "slice_rig.hpp"
 
@@ -105,6 +110,65 @@ TEST(NativeBlocks, TorquesBetweenBlocksActOnBoth) {
   const wire::Energy& last = link.reports.back().energy();
   const double found = last.kinetic() + last.elastic() + last.damping() + last.friction() - last.interface_work();
   EXPECT_NEAR(found / first.kinetic(), 1.0, 0.01);
+}
+
+/// Forces and torques on each grain after some steps of a heap of turning discs, whose order in memory is another one
+/// in each of them. `size` grains are a block.
+std::vector<double> forces_in_heap(std::int32_t size) {
+  constexpr std::int32_t rows = 12;
+  constexpr std::int32_t count = rows * rows;
+  constexpr double step = 1e-7;
+  const SlugModel model = model_of(discs(0.0));
+  std::mt19937_64 random(5);
+  std::vector<PlacedParticle> placed(count);
+  std::vector<std::int32_t> names(count);
+  std::iota(names.begin(), names.end(), 0);
+  for (std::int32_t n = 0; n < count; ++n) {
+    PlacedParticle& one = placed[static_cast<std::size_t>(n)];
+    one.position[0] = 0.98 * model.diameter * (n % rows);
+    one.position[1] = 0.98 * model.diameter * (n / rows);
+    one.spin = static_cast<double>(random() % 20001) - 10000.0;
+  }
+  base::Team team(1);
+  native::Grains<2> grains(model, placed, names);
+  const native::Allowance allowance{0.35 * model.diameter, model.diameter};
+  native::Neighbours<2> neighbours(*native::available_sweeps().front(), allowance, allowance);
+  const ContactLaw& law = model.pair_law;
+  native::Contacts<2> contacts({law.normal_stiffness, law.tangential_stiffness, 0.0, law.friction}, {.dimension = 2},
+                               grains, {count, size});
+  std::vector<double> found;
+  for (int n = 0; n < 6; ++n) {
+    std::vector<std::uint8_t> fast(count);
+    for (std::uint8_t& one : fast) one = random() % 2;
+    const contact::ParticleArrays arrays = grains.arrays(count);
+    std::for_each_n(arrays.force, count, [](double* force) { std::fill_n(force, 2, 0.0); });
+    std::for_each_n(arrays.torque, count, [](double* torque) { torque[2] = 0.0; });
+    neighbours.rebuild(team, grains, {count, size}, fast);
+    contacts.follow(team, neighbours, grains);
+    contacts.evaluate(team, grains, neighbours, step);
+    found.assign(3 * count, 0.0);
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+      double* of_this = found.data() + std::ptrdiff_t{3} * arrays.identity[i];
+      std::copy_n(arrays.force[i], 2, of_this);
+      of_this[2] = arrays.torque[i][2] / model.diameter;
+    }
+  }
+  return found;
+}
+
+// Nobody moves, so that the normal forces are always the same, and tangential springs grow with every step that is
+// remembered. A grain's name must not decide which flags it gets, or contacts would stay in their blocks.
+TEST(NativeBlocks, SpringsGoAlongToAnotherBlock) {
+  const std::vector<double> whole = forces_in_heap(1024);
+  const double largest = std::abs(
+      *std::max_element(whole.begin(), whole.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  ASSERT_GT(largest, 0.0);
+  for (const std::int32_t size : {1, 7, 40}) {
+    const std::vector<double> parts = forces_in_heap(size);
+    for (std::size_t n = 0; n < whole.size(); ++n) {
+      ASSERT_NEAR(parts[n], whole[n], 1e-12 * largest) << "grain " << n / 3 << ", blocks of " << size;
+    }
+  }
 }
 
 }  // namespace
