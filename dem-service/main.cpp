@@ -10,8 +10,8 @@ namespace {
 int serve(const grainstep::participant::Program& program, const grainstep::dem::EngineOptions& options) {
   // Made first, so that its end sends the other ranks home whatever happens to the connection.
   const auto impactor = grainstep::dem::make_impactor(options);
-  return program.run([&impactor](grainstep::transport::Channel& channel) {
-    return grainstep::participant::serve_impactor(channel, *impactor);
+  return program.run([&impactor, &program](grainstep::transport::Channel& channel) {
+    return grainstep::participant::serve_impactor(channel, *impactor, program.serving());
   });
 }
 

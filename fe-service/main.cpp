@@ -14,12 +14,12 @@ int main(int argc, char** argv) {
   int threads = 1;
   program.number("threads", "Threads of a structure; results do not depend on their number", threads, 1, 1024);
   if (const auto code = program.parse(argc, argv)) return *code;
-  return program.run([&role, threads](Channel& channel) {
+  return program.run([&program, &role, threads](Channel& channel) {
     if (role == "impactor") {
       grainstep::fe::Impactor impactor;
-      return grainstep::participant::serve_impactor(channel, impactor);
+      return grainstep::participant::serve_impactor(channel, impactor, program.serving());
     }
     grainstep::fe::Structure structure(threads);
-    return grainstep::participant::serve_structure(channel, structure);
+    return grainstep::participant::serve_structure(channel, structure, program.serving());
   });
 }

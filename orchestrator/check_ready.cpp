@@ -8,11 +8,13 @@
 #include "base/number_text.hpp"
 #include "ledger/message_numbers.hpp"
 #include "participant/check_surface.hpp"
+#include "participant/direct_path.hpp"
 #include "scene/suggest.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
 
+constexpr std::size_t longest_endpoint = 1000;
 constexpr int digits = 4;  // of times and steps, in messages
 
 [[noreturn]] void refuse(const Peer& peer, const std::string& text) { throw PeerError(peer.name(), text); }
@@ -66,6 +68,18 @@ void check_surface(const Peer& peer, const Demands& demands) {
   if (demands.of_revolution) check_rings(peer, peer.ready.surface());
 }
 
+void check_data_endpoint(const Peer& peer) {
+  const std::string& endpoint = peer.hello.data_endpoint();
+  if (std::ranges::count(peer.hello.capabilities(), participant::direct_capability) == 0) return;
+  if (peer.role == wire::IMPACTOR) return;
+  try {
+    if (endpoint.size() > longest_endpoint) throw InputError(std::to_string(endpoint.size()) + " characters");
+    transport::check_form(endpoint, transport::Use::connect);
+  } catch (const InputError& error) {
+    refuse(peer, std::string("Hello.data_endpoint: ") + error.what());
+  }
+}
+
 }  // namespace
 
 void check_hello(const Peer& peer, const Demands& demands) {
@@ -85,6 +99,7 @@ void check_hello(const Peer& peer, const Demands& demands) {
     throw InputError("symmetry: the scene has " + std::to_string(demands.dimension) + " dimensions, but the " +
                      peer.name() + " (" + who + ") computes in " + (known.empty() ? "none" : scene::join_words(known)));
   }
+  check_data_endpoint(peer);
   const std::vector<std::string> words(hello.capabilities().begin(), hello.capabilities().end());
   for (const scene::Need& need : demands.needs) {
     if (std::ranges::find(words, need.word) != words.end()) continue;

@@ -56,7 +56,8 @@ class Run {
                  {.scene = how.preparation.scene,
                   .hash = how.preparation.hash,
                   .end = how.preparation.groups.end,
-                  .path = how.path},
+                  .path = how.path,
+                  .one_host = how.one_host},
                  how.deadlines) {}
 
   void go() {
@@ -107,7 +108,7 @@ class Run {
                     .impactor_timing = hub_.impactor().timing,
                     .structure_timing = hub_.structure().timing,
                     .threads = how_.preparation.threads,
-                    .path = session_.path() == Path::shared ? "shared" : "hub",
+                    .path = text_of(session_.path()),
                     .wall_seconds = wall.count(),
                     .orchestrator_seconds = processor_seconds() - processor_at_start_});
   }

@@ -19,6 +19,7 @@ struct Conduct {
   const results::RunDirectory& directory;  ///< prepared
   Deadlines deadlines;
   Path path = Path::hub;
+  bool one_host = true;  ///< Task::one_host
   Progress::Style progress = Progress::Style::quiet;
   /// Given the name of a lost peer: what else is known of its end. May be empty.
   std::function<std::string(const std::string&)> account_of;

@@ -30,7 +30,7 @@ bool Hub::take_one(Peer& peer, const Handler& handler) {
     throw_error_of(peer, *frame);
   }
   handler(peer, *frame);
-  return true;
+  return !peer.messages.is_put_back();  // its turn comes with a message of the other side's
 }
 
 void Hub::hear_last_words(const std::string& peer, const Handler& handler) {
@@ -55,6 +55,7 @@ void Hub::hear_last_words(const std::string& peer, const Handler& handler) {
     }
     try {
       handler(lost, *frame);
+      lost.messages.drop();
     } catch (const PeerError&) {  // it leads to the lost one, or out of turn because of what could not be sent
     }
   }

@@ -45,7 +45,8 @@ class Hub {
   /// The moment that many seconds from now.
   [[nodiscard]] static Until within(double seconds);
 
-  /// Hands every message to `handler` until `done` (true) or until the deadline, which is asked for anew before every
+  /// A handler may put a message back (MessageChannel): it gets it again after the other side's next one. Hands every
+  /// message to `handler` until `done` (true) or until the deadline, which is asked for anew before every
   /// wait, has passed (false). An Error of a participant becomes the exception it stands for.
   bool run(const Handler& handler, const Done& done, const Until& deadline);
 

@@ -32,6 +32,7 @@ LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, d
       start_(start),
       silence_s_(silence_s),
       listener_(listener),
+      direct_(start.has_direct()),
       dimension_(std::max(1U, hub.structure().ready.surface().dimension())),
       values_(hub.structure().ready.surface().position_size()),
       position_(hub.structure().ready.surface().position().begin(), hub.structure().ready.surface().position().end()),
@@ -90,7 +91,17 @@ bool LockStep::done() const {
          structure_.last_report && structure_.last_snapshot;
 }
 
+// The sides wait for each other, and not for us: their copies may overtake each other by one window.
+bool LockStep::early(const Peer& peer, const wire::Frame& frame) const {
+  const std::optional<std::uint64_t> window = wire::window_of(frame);
+  if (!direct_ || !window) return false;
+  if (frame.kind == wire::Envelope::kForces) return structure_owes_ && *window == next_forces_;
+  if (frame.kind == wire::Envelope::kKinematics) return !structure_owes_ && *window == next_forces_ + 1;
+  return peer.role == wire::STRUCTURE && *window == next_forces_ && !structure_owes_;
+}
+
 void LockStep::handle(Peer& peer, const wire::Frame& frame) {
+  if (early(peer, frame)) return peer.messages.put_back();
   if (!listener_ && frame.kind == wire::Envelope::kForces && peer.role == wire::IMPACTOR) {
     on_forces(peer.messages, frame);
   } else if (!listener_ && frame.kind == wire::Envelope::kKinematics && peer.role == wire::STRUCTURE) {
@@ -106,6 +117,9 @@ void LockStep::handle(Peer& peer, const wire::Frame& frame) {
 }
 
 void LockStep::late(Peer& peer, const wire::Frame& frame) {
+  // Rows of windows before the failure must not depend on whose copies were quicker.
+  const bool data = frame.kind == wire::Envelope::kForces || frame.kind == wire::Envelope::kKinematics;
+  if (direct_ && data && !early(peer, frame)) return handle(peer, frame);
   // On the short path the sides may be ahead of what was heard before the failure.
   if (wire::window_of(frame).value_or(0) >= next_forces_) return;
   if (frame.kind == wire::Envelope::kReport) {
@@ -173,8 +187,9 @@ void LockStep::on_forces(wire::MessageChannel& from, const wire::Frame& frame) {
                     : "Forces of window " + std::to_string(next_forces_),
                 frame);
   }
-  if (!listener_) hub_.structure().messages.forward(frame);
+  if (!listener_ && !direct_) hub_.structure().messages.forward(frame);
   hub_.structure().heard = transport::Clock::now();
+  impactor.under_way = true;
   const std::uint64_t window = next_forces_++;
   structure_owes_ = window < start_.windows();
   from.take(frame, forces_, window);
@@ -190,9 +205,10 @@ void LockStep::on_kinematics(wire::MessageChannel& from, const wire::Frame& fram
                                 : std::string("no Kinematics before the next Forces were sent"),
                 frame);
   }
-  if (!listener_) hub_.impactor().messages.forward(frame);
+  if (!listener_ && !direct_) hub_.impactor().messages.forward(frame);
   hub_.impactor().heard = transport::Clock::now();
   structure_owes_ = false;
+  structure.under_way = true;
   from.take(frame, kinematics_, next_forces_);
   require_size(structure, "position in Kinematics", next_forces_, kinematics_.position_size());
   require_size(structure, "velocity in Kinematics", next_forces_, kinematics_.velocity_size());

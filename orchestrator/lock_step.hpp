@@ -16,7 +16,8 @@ namespace grainstep::orchestrator {
 /// observer throws.
 class LockStep {
  public:
-  /// `listener`: where Forces and Kinematics are heard that take the short path; nullptr: they go through here.
+  /// `listener`: where Forces and Kinematics are heard that take the short path; nullptr: they go through here, or here
+  /// come copies of what went between the sides.
   LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, double silence_s, Listener* listener = nullptr);
   LockStep(const LockStep&) = delete;
   LockStep& operator=(const LockStep&) = delete;
@@ -35,6 +36,9 @@ class LockStep {
   void handle(Peer& peer, const wire::Frame& frame);
   void on_forces(wire::MessageChannel& from, const wire::Frame& frame);
   void on_kinematics(wire::MessageChannel& from, const wire::Frame& frame);
+  /// Whether this is a copy of data, or what was said after them, which came before what the other side had to say
+  /// first.
+  [[nodiscard]] bool early(const Peer& peer, const wire::Frame& frame) const;
   void listen();
   void take_what_came();           ///< on the short path
   [[nodiscard]] bool take_next();  ///< false: nothing is there whose turn it is
@@ -61,6 +65,7 @@ class LockStep {
   wire::Start start_;
   double silence_s_;
   Listener* listener_;
+  bool direct_;  // Forces and Kinematics that come here are copies
   unsigned dimension_;
   int values_;                    // nodes x dimension of the surface
   std::vector<double> position_;  // m, of the surface at the last exchange

@@ -44,9 +44,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       ->allow_extra_args(false);
   run->add_option(
          "--path", options.path,
-         "Way of forces and motion: hub (through the orchestrator), shared (memory of this host), or auto: the "
-         "shorter one where both participants are started here")
-      ->check(CLI::IsMember({"auto", "hub", "shared"}));
+         "Way of forces and motion: hub (through the orchestrator), shared (memory of this host), direct (a connection "
+         "between the participants), or auto: the shortest that both can take")
+      ->check(CLI::IsMember({"auto", "hub", "shared", "direct"}));
   run->add_option("--listen", options.listen,
                   "tcp://HOST:PORT for external participants; the structure's port is the next one");
   run->add_option("--curve-dir", options.curve_dir, "Directory with the keys that encrypt tcp");

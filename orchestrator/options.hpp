@@ -29,7 +29,7 @@ struct RunOptions {
   std::vector<std::string> external;  ///< "impactor", "structure"
   bool allow_program = false;         ///< that the scene names, and that is not ours
   bool allow_deck = false;            ///< LAMMPS scripts may be run
-  std::string path = "auto";          ///< of data: auto, hub, shared
+  std::string path = "auto";          ///< of data: auto, hub, shared, direct
 };
 
 struct CheckOptions {

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "orchestrator/peer.hpp"
+#include "orchestrator/session.hpp"
 #include "process/launch.hpp"
 
 namespace grainstep::orchestrator {
@@ -115,14 +116,19 @@ void Participants::open(Side& side) {
   side.channel = transport::ZmqChannel::bind(endpoint, zmq);
 }
 
+bool Participants::listens_for_data(const Side& side) const {
+  return options_.path == text_of(Path::direct) && side.role == wire::STRUCTURE && side.program.own;
+}
+
 void Participants::tell_how_to_start(const Side& side) const {
   const std::string& endpoint = side.channel->endpoint();
   const bool keys = transport::is_tcp(endpoint) && !options_.curve_dir.empty();
   std::string command;
   for (const std::string& word : side.program.command) command += word + " ";
-  std::printf("waiting %.0f s for the %s; start it with:\n  %s--connect %s%s%s\n", options_.deadlines.connect_s,
+  std::printf("waiting %.0f s for the %s; start it with:\n  %s--connect %s%s%s%s\n", options_.deadlines.connect_s,
               name_of(side.role), command.c_str(), endpoint.c_str(), keys ? " --curve-dir DIR" : "",
-              options_.allow_plain_tcp ? " --allow-plain-tcp" : "");
+              options_.allow_plain_tcp ? " --allow-plain-tcp" : "",
+              listens_for_data(side) ? " --data-listen tcp://HOST:PORT" : "");
   std::fflush(stdout);
 }
 
@@ -132,6 +138,10 @@ void Participants::start(const Side& side, Supervision& supervision, const std::
                            .arguments = {words.begin() + 1, words.end()},
                            .environment = {}};
   command.arguments.insert(command.arguments.end(), {"--connect", side.channel->endpoint()});
+  if (listens_for_data(side)) {
+    command.arguments.insert(command.arguments.end(),
+                             {"--data-listen", "ipc://" + (sockets_.path() / "data").string()});
+  }
   if (side.deck) command.arguments.emplace_back("--allow-deck");
   if (side.threads > 1) command.arguments.insert(command.arguments.end(), {"--threads", std::to_string(side.threads)});
   if (side.program.ranks) {

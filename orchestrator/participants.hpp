@@ -44,7 +44,7 @@ class Participants {
   /// Starts those that are to be started here; their output goes to impactor.log and structure.log in `logs`.
   void start(Supervision& supervision, const std::filesystem::path& logs, Others others = Others::told);
 
-  /// Takes the local sockets' names from the file system once both are connected, which needs them no more: whatever
+  /// Takes the local sockets' names from the file system once all are connected, which needs them no more: whatever
   /// ends this process from then on, nothing of them stays.
   void close_doors() { sockets_.remove(); }
 
@@ -58,6 +58,7 @@ class Participants {
     std::unique_ptr<transport::ZmqChannel> channel;
   };
   [[nodiscard]] std::string endpoint_of(const Side& side) const;
+  [[nodiscard]] bool listens_for_data(const Side& side) const;
   void open(Side& side);
   void tell_how_to_start(const Side& side) const;
   void start(const Side& side, Supervision& supervision, const std::filesystem::path& logs) const;

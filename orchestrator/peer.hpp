@@ -21,6 +21,7 @@ struct Peer {
   wire::MessageChannel messages;
   transport::Clock::time_point heard;  ///< when it last said something, or was last given something to do
   bool introduced = false;             ///< its Hello is here
+  bool under_way = false;              ///< data of it have come
   bool finished = false;               ///< Finished, Error or lost: nothing more is expected of it
   wire::Hello hello;
   wire::Ready ready;

@@ -41,12 +41,16 @@ void announce(const RunOptions& options, const Preparation& preparation, const r
   std::fflush(stdout);
 }
 
+Path path_of(const RunOptions& options) {
+  for (const Path path : {Path::hub, Path::shared, Path::direct}) {
+    if (options.path == text_of(path)) return path;
+  }
+  return Path::shortest;
+}
+
 /// Those that somebody else has started may sit in containers: they share this host's memory only on a user's word.
-Path path_of(const RunOptions& options, const scene::Scene& scene) {
-  if (options.path == "hub") return Path::hub;
-  if (options.path == "shared") return Path::shared;
-  const bool external = is_external(wire::IMPACTOR, scene, options) || is_external(wire::STRUCTURE, scene, options);
-  return external ? Path::hub : Path::shared_if_possible;
+bool on_one_host(const RunOptions& options, const scene::Scene& scene) {
+  return !is_external(wire::IMPACTOR, scene, options) && !is_external(wire::STRUCTURE, scene, options);
 }
 
 Ending run_prepared(const RunOptions& options, const Preparation& preparation, const results::RunDirectory& directory) {
@@ -60,9 +64,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
   Participants participants(preparation.scene, options, preparation.threads);
   Supervision supervision(loop);
   Hub hub(participants.impactor(), participants.structure(), loop, [&supervision, &participants, &hub] {
-    if (hub.impactor().introduced && hub.structure().introduced) {
-      participants.close_doors();
-    }
+    if (hub.impactor().under_way && hub.structure().under_way) participants.close_doors();
     supervision.watch({.impactor = {hub.impactor().introduced, hub.impactor().finished},
                        .structure = {hub.structure().introduced, hub.structure().finished}});
   });
@@ -71,7 +73,8 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
       conduct(hub, {.preparation = preparation,
                     .directory = directory,
                     .deadlines = options.deadlines,
-                    .path = path_of(options, preparation.scene),
+                    .path = path_of(options),
+                    .one_host = on_one_host(options, preparation.scene),
                     .progress = Progress::style_for(stdout, options.quiet),
                     .account_of = [&supervision](const std::string& peer) { return supervision.account_of(peer); }});
   supervision.end_all(ending.code == ExitCode::done ? patience_at_the_end : patience_after_a_failure);

@@ -6,16 +6,35 @@
 
 #include "base/error.hpp"
 #include "participant/data_path.hpp"
+#include "participant/direct_path.hpp"
 #include "scene/groups.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
 
-bool can_share_memory(const Peer& peer) {
-  return std::ranges::count(peer.hello.capabilities(), participant::DataPath::capability) > 0;
+bool can(const Peer& peer, const char* capability) {
+  return std::ranges::count(peer.hello.capabilities(), capability) > 0;
+}
+
+[[noreturn]] void refuse_path(const std::string& path, const std::string& why) {
+  throw InputError("--path " + path + ": " + why + "; --path hub takes another way");
 }
 
 }  // namespace
+
+const char* text_of(Path path) {
+  switch (path) {
+    case Path::hub:
+      return "hub";
+    case Path::shared:
+      return "shared";
+    case Path::direct:
+      return "direct";
+    case Path::shortest:
+      break;
+  }
+  return "auto";
+}
 
 Demands Session::demands_of(const Peer& peer) const {
   return {.dimension = scene::surface_dimension(task_.scene),
@@ -95,27 +114,49 @@ StepPlan Session::prepare() {
   return plan_steps(task_.scene, task_.end, steps_of(hub_.impactor().ready), steps_of(hub_.structure().ready));
 }
 
-std::unique_ptr<Listener> Session::listener() const {
-  if (task_.path == Path::hub) return nullptr;
+bool Session::share(wire::Start& start) {
+  const bool must = task_.path == Path::shared;
   for (const Peer* peer : {&hub_.impactor(), &hub_.structure()}) {
-    if (can_share_memory(*peer)) continue;
-    if (task_.path == Path::shared_if_possible) return nullptr;
-    throw InputError("--path shared: the " + peer->name() + " (" + peer->hello.backend() +
-                     ") cannot share memory with the other side; --path hub takes another way");
+    if (can(*peer, participant::shared_memory_capability)) continue;
+    if (!must) return false;
+    refuse_path("shared",
+                "the " + peer->name() + " (" + peer->hello.backend() + ") cannot share memory with the other side");
   }
   try {
-    return std::make_unique<Listener>(static_cast<std::uint64_t>(hub_.structure().ready.surface().position_size()));
+    listener_ =
+        std::make_unique<Listener>(static_cast<std::uint64_t>(hub_.structure().ready.surface().position_size()));
   } catch (const std::system_error& error) {
-    if (task_.path == Path::shared_if_possible) return nullptr;
-    throw InputError(std::string("--path shared: this host gives no memory to share: ") + error.what() +
-                     "; --path hub takes another way");
+    if (!must) return false;
+    refuse_path("shared", std::string("this host gives no memory to share: ") + error.what());
   }
+  start.mutable_shared_memory()->set_file(listener_->file());
+  path_ = Path::shared;
+  return true;
+}
+
+bool Session::connect(wire::Start& start) {
+  for (const Peer* peer : {&hub_.impactor(), &hub_.structure()}) {
+    if (can(*peer, participant::direct_capability)) continue;
+    if (task_.path != Path::direct) return false;
+    refuse_path("direct", "the " + peer->name() + " (" + peer->hello.backend() + ") " +
+                              (peer->role == wire::IMPACTOR
+                                   ? "cannot connect to the structure"
+                                   : "does not listen for the impactor (one of ours does with --data-listen)"));
+  }
+  start.mutable_direct()->set_endpoint(hub_.structure().hello.data_endpoint());
+  path_ = Path::direct;
+  return true;
+}
+
+void Session::choose_path(wire::Start& start) {
+  const bool shortest = task_.path == Path::shortest;
+  if ((task_.path == Path::shared || (shortest && task_.one_host)) && share(start)) return;
+  if (task_.path == Path::direct || shortest) static_cast<void>(connect(start));
 }
 
 void Session::run(const StepPlan& plan, StepObserver& observer) {
   wire::Start start = plan.start();
-  listener_ = listener();
-  if (listener_) start.mutable_shared_memory()->set_file(listener_->file());
+  choose_path(start);
   hub_.send(hub_.structure(), start);
   hub_.send(hub_.impactor(), start);
   steps_.emplace(hub_, observer, start, deadlines_.step_s, listener_.get());

@@ -17,10 +17,14 @@ namespace grainstep::orchestrator {
 
 /// The way of Forces and Kinematics (proto/README.md, "The path of data").
 enum class Path {
-  hub,                 ///< through the orchestrator
-  shared,              ///< through memory that the sides share
-  shared_if_possible,  ///< that, or through the orchestrator where one side cannot, or the host has no such memory
+  hub,       ///< through the orchestrator
+  shared,    ///< through memory that the sides share
+  direct,    ///< over a connection between them
+  shortest,  ///< the first of shared (on one host), direct, hub that both sides can take, and the host has
 };
+
+/// The word of --path.
+[[nodiscard]] const char* text_of(Path path);
 
 /// What a session needs to know of a scene.
 struct Task {
@@ -29,6 +33,7 @@ struct Task {
   double end = 0.0;      ///< s
   bool preview = false;  ///< nothing will be started: only what the sides say before is wanted
   Path path = Path::hub;
+  bool one_host = true;  ///< as far as anybody knows
 };
 
 /// Order of calls: introduce, prepare, run (of a preview: introduce, ask, end); and at any time after construction,
@@ -53,7 +58,7 @@ class Session {
   void run(const StepPlan& plan, StepObserver& observer);
 
   /// Which one run() takes; hub before.
-  [[nodiscard]] Path path() const { return listener_ ? Path::shared : Path::hub; }
+  [[nodiscard]] Path path() const { return path_; }
 
   /// Asks both sides, but for `lost` (a peer's name, or empty), to stop and waits a little for their answers. What they
   /// had reported before is still handed to run()'s observer, which has to be there until this returns.
@@ -68,12 +73,15 @@ class Session {
   [[nodiscard]] bool finished() { return hub_.impactor().finished && hub_.structure().finished; }
   void lose(const std::string& name);
   void hear_the_rest(Peer& peer, const wire::Frame& frame);
-  /// nullptr: Forces and Kinematics come through here. InputError where the task's path cannot be had.
-  [[nodiscard]] std::unique_ptr<Listener> listener() const;
+  /// Says in `start` which way Forces and Kinematics take. InputError where the task's path cannot be had.
+  void choose_path(wire::Start& start);
+  [[nodiscard]] bool share(wire::Start& start);    ///< false: one side cannot, or the host gives no memory
+  [[nodiscard]] bool connect(wire::Start& start);  ///< false: one side cannot
 
   Hub& hub_;
   Task task_;
   Deadlines deadlines_;
+  Path path_ = Path::hub;
   std::unique_ptr<Listener> listener_;
   std::optional<LockStep> steps_;  // hears through it
 };

@@ -15,6 +15,7 @@ struct ConnectOptions {
   std::filesystem::path curve_dir = {};  ///< participant.key and orchestrator.pub (transport/curve.hpp); empty: plain
   double connect_deadline_s = 120.0;
   bool allow_plain_tcp = false;
+  std::string data_listen = {};  ///< where a structure listens for its impactor (direct_path.hpp); empty: nowhere
 };
 
 /// The channel to the orchestrator. Tries until somebody answers; PeerError (exit code 4) when nobody does within the

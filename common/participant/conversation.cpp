@@ -23,7 +23,7 @@ std::optional<std::string> problem_of_surface(const wire::Setup& setup) {
 
 double seconds_of(transport::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// The orchestrator says Stop while data take the short path.
+/// The orchestrator says Stop while data take another path.
 class Stopped {};
 
 constexpr auto between_looks = std::chrono::milliseconds(2);  // at the orchestrator, while data come
@@ -39,7 +39,7 @@ bool Conversation::introduce(wire::Hello hello, wire::Role role, wire::Setup& se
   hello.set_protocol(wire::PROTOCOL_VERSION);
   hello.set_role(role);
   role_ = role;
-  if (options_.shared_memory) hello.add_capabilities(DataPath::capability);
+  offer_data_paths(hello);
   hello.set_process(static_cast<std::uint64_t>(::getpid()));
   messages_.send(hello);
   const wire::Frame* frame = next("Setup", options_.setup_deadline_s);
@@ -75,7 +75,11 @@ bool Conversation::wait_for_start(wire::Start& start) {
   if (preview_) messages_.refuse("Stop after the Ready of a preview, for which no model was built", *frame);
   messages_.take(*frame, start);
   if (const auto found = start_problem(start)) refuse(*found);
-  if (start.has_shared_memory()) open_data_path(start);
+  try {
+    open_data_path(start);
+  } catch (const Stopped&) {
+    return false;
+  }
   started_ = transport::Clock::now();
   processor_at_start_ = processor_seconds();
   return true;
@@ -107,15 +111,41 @@ const wire::Frame* Conversation::next(const std::string& expected, double deadli
 
 wire::MessageChannel& Conversation::data() { return data_ ? data_->messages() : messages_; }
 
+void Conversation::offer_data_paths(wire::Hello& hello) {
+  if (options_.shared_memory) hello.add_capabilities(shared_memory_capability);
+  if (!options_.direct) return;
+  const std::string& listen = options_.direct->listen;
+  if (role_ == wire::IMPACTOR) {
+    if (!listen.empty()) {
+      throw InputError("--data-listen " + listen + ": the structure listens, an impactor is told where; leave it out");
+    }
+    hello.add_capabilities(direct_capability);
+  } else if (!listen.empty()) {
+    door_ = std::make_unique<DirectDoor>(*options_.direct);
+    hello.add_capabilities(direct_capability);
+    hello.set_data_endpoint(door_->endpoint());
+  }
+}
+
 void Conversation::open_data_path(const wire::Start& start) {
-  data_ = std::make_unique<DataPath>(start.shared_memory().file(), role_, [this] { look_for_stop(); });
+  const auto look = [this] { look_for_stop(); };
+  if (start.has_shared_memory()) {
+    data_ = share_memory(start.shared_memory().file(), role_, look);
+  } else if (start.has_direct() && role_ == wire::IMPACTOR && options_.direct) {
+    data_ = connect_directly(start.direct().endpoint(), *options_.direct, look);
+  } else if (start.has_direct() && door_) {
+    data_ = std::move(*door_).open(look);
+  } else if (start.has_direct()) {
+    refuse("Start names a direct path of data, which this participant did not offer");
+  }
+  door_.reset();
 }
 
 void Conversation::look_for_stop() {
   looked_ = transport::Clock::now();
   const wire::Frame* frame = messages_.receive(looked_);
   if (frame == nullptr) return;
-  if (frame->kind != wire::Envelope::kStop) messages_.refuse("Stop: data take the short path", *frame);
+  if (frame->kind != wire::Envelope::kStop) messages_.refuse("Stop: data do not come from here", *frame);
   stopped_ = true;
   throw Stopped();
 }
@@ -138,7 +168,8 @@ void Conversation::knock() {
 void Conversation::send_data(const std::function<void(wire::MessageChannel&)>& send) {
   try {
     send(data());
-  } catch (const Stopped&) {  // nobody wants it any more
+    if (data_ && data_->wants_copies()) send(messages_);  // after who waits for it has it
+  } catch (const Stopped&) {                              // nobody wants it any more
   }
 }
 

@@ -11,6 +11,7 @@
 namespace grainstep::participant {
 
 class DataPath;
+class DirectDoor;
 
 /// What one participant says and hears, in order. Throws PeerError when the orchestrator is lost, silent beyond a
 /// deadline, or breaks the order. After a Stop every wait returns "stopped" and nothing but Finished is sent.
@@ -60,21 +61,23 @@ class Conversation {
  private:
   /// The next message of the orchestrator; nullptr after Stop.
   const wire::Frame* next(const std::string& expected, double deadline_s);
-  /// The same on the short path.
+  /// The same of the other side, where data do not come through the orchestrator.
   const wire::Frame* next_on_data_path(const std::string& expected, double deadline_s);
   void open_data_path(const wire::Start& start);
-  /// While data take the short path, the orchestrator says nothing but Stop, which is thrown from here.
+  /// While data do not come through it, the orchestrator says nothing but Stop, which is thrown from here.
   void look_for_stop();
   /// What Forces and Kinematics go over.
   [[nodiscard]] wire::MessageChannel& data();
   void send_data(const std::function<void(wire::MessageChannel&)>& send);
+  void offer_data_paths(wire::Hello& hello);
   const wire::Frame* wait_for_data(const std::string& kind, std::uint64_t window);
   void fill_timing(wire::Timing& timing) const;
 
   wire::MessageChannel messages_;
   ServeOptions options_;
   wire::Role role_ = wire::ROLE_UNSET;
-  std::unique_ptr<DataPath> data_;  ///< none: data go through the orchestrator
+  std::unique_ptr<DirectDoor> door_;  ///< of a structure that has such a path to offer, until Start
+  std::unique_ptr<DataPath> data_;    ///< none: data go through the orchestrator
   transport::Clock::time_point looked_{};
   transport::Clock::time_point started_{};
   double processor_at_start_ = 0.0;

@@ -1,29 +1,44 @@
-/// @file A participant's end of the short path of data, if Start names one (proto/README.md, "The path of data").
+/// @file A participant's end of the way that Forces and Kinematics take past the orchestrator, if Start names one
+/// (proto/README.md, "The path of data").
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 
 #include "grainstep/wire.pb.h"
-#include "transport/shared_channel.hpp"
 #include "wire/message_channel.hpp"
 
 namespace grainstep::participant {
 
 class DataPath {
  public:
-  static constexpr const char* capability = "shared_memory";  ///< the word in Hello
+  DataPath() = default;
+  DataPath(const DataPath&) = delete;
+  DataPath& operator=(const DataPath&) = delete;
+  virtual ~DataPath() = default;
 
-  /// InputError where the file cannot be opened: the sides are not on one host after all.
-  DataPath(const std::filesystem::path& file, wire::Role role, transport::SharedChannel::WhileWaiting look);
+  [[nodiscard]] virtual wire::MessageChannel& messages() = 0;
 
-  [[nodiscard]] wire::MessageChannel& messages() { return messages_; }
+  /// Data will be sent within microseconds.
+  virtual void knock() {}
 
-  void knock() { channel_.knock(); }
-
- private:
-  transport::SharedPath path_;
-  transport::SharedChannel channel_;
-  wire::MessageChannel messages_;
+  /// Whether the orchestrator hears what passes here only if it is sent there, too.
+  [[nodiscard]] virtual bool wants_copies() const = 0;
 };
+
+/// Called every few milliseconds while data are waited for; what it throws passes through.
+using WhileWaiting = std::function<void()>;
+
+/// The other side's name in errors.
+[[nodiscard]] inline const char* other_side(wire::Role role) {
+  return role == wire::IMPACTOR ? "structure" : "impactor";
+}
+
+inline constexpr const char* shared_memory_capability = "shared_memory";  ///< the word in Hello
+
+/// InputError where the file cannot be opened: the sides are not on one host after all.
+[[nodiscard]] std::unique_ptr<DataPath> share_memory(const std::filesystem::path& file, wire::Role role,
+                                                     WhileWaiting look);
 
 }  // namespace grainstep::participant

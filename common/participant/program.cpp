@@ -17,6 +17,9 @@ void add_connect_options(CLI::App& app, ConnectOptions& options) {
       ->check(positive_number())
       ->capture_default_str();
   app.add_flag("--allow-plain-tcp", options.allow_plain_tcp, "Unencrypted tcp beyond this host");
+  app.add_option("--data-listen", options.data_listen,
+                 "Of a structure: where the impactor may connect for forces and motion (grainstep run --path direct), "
+                 "ipc:///path or tcp://HOST:PORT; HOST may be *");
 }
 
 }  // namespace
@@ -54,6 +57,13 @@ std::optional<int> Program::parse(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
+}
+
+ServeOptions Program::serving() const {
+  ServeOptions out;
+  out.direct = {
+      .listen = connect_.data_listen, .curve_dir = connect_.curve_dir, .allow_plain_tcp = connect_.allow_plain_tcp};
+  return out;
 }
 
 int Program::run(const std::function<int(transport::Channel&)>& serve) const {

@@ -3,8 +3,8 @@
 ///     int main(int argc, char** argv) {
 ///       participant::Program program("my-solver", "1.0", "A structure of my own");
 ///       if (const auto code = program.parse(argc, argv)) return *code;
-///       return program.run([&](transport::Channel& channel) { MyStructure mine; return serve_structure(channel, mine);
-///       });
+///       return program.run([&](transport::Channel& channel) { MyStructure mine;
+///         return serve_structure(channel, mine, program.serving()); });
 ///     }
 #pragma once
 
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "participant/connect.hpp"
+#include "participant/serve.hpp"
 
 namespace grainstep::participant {
 
@@ -36,6 +37,9 @@ class Program {
   [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv);
 
   [[nodiscard]] const ConnectOptions& connect() const { return connect_; }
+
+  /// What serve_structure() and serve_impactor() are to know of this command line.
+  [[nodiscard]] ServeOptions serving() const;
 
   /// Connects, then calls `serve` with the channel. Returns its exit code, or that of what went wrong, in one line on
   /// stderr: keys and endpoints that cannot be used (2), an orchestrator that is not there (4).

@@ -13,17 +13,20 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 
 #include "participant/backend.hpp"
+#include "participant/direct_path.hpp"
 #include "transport/channel.hpp"
 
 namespace grainstep::participant {
 
 struct ServeOptions {
-  double setup_deadline_s = 600.0;  ///< for Setup and for Start: the other side may have to prepare in between
-  double data_deadline_s = 3600.0;  ///< for one message of the other side while the run goes on
-  bool shared_memory = true;        ///< data may take it where the orchestrator offers it (proto/README.md)
-  std::ostream* errors = nullptr;   ///< where the one line about a bad end goes; nullptr: std::cerr
+  double setup_deadline_s = 600.0;           ///< for Setup and for Start: the other side may have to prepare in between
+  double data_deadline_s = 3600.0;           ///< for one message of the other side while the run goes on
+  bool shared_memory = true;                 ///< data may take it where the orchestrator offers it (proto/README.md)
+  std::optional<DirectOptions> direct = {};  ///< the same of a connection to the other side; Program::serving() has it
+  std::ostream* errors = nullptr;            ///< where the one line about a bad end goes; nullptr: std::cerr
 };
 
 /// Runs the whole conversation and returns the program's exit code (base/error.hpp). Never throws: InputError,

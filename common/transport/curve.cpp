@@ -82,12 +82,14 @@ CurveKeys load_keys(const fs::path& directory, Side side) {
   const bool orchestrator = side == Side::orchestrator;
   CurveKeys keys;
   keys.own_secret = read_secret(secret_file(directory, orchestrator ? "orchestrator" : "participant"));
-  keys.peer_public = read_key(public_file(directory, orchestrator ? "participant" : "orchestrator"));
   KeyText derived{};
   if (::zmq_curve_public(derived.data(), keys.own_secret.c_str()) != 0) {
     throw InputError(directory.string() + ": its secret key has no public key: " + ::zmq_strerror(errno));
   }
   keys.own_public = derived.data();
+  keys.peer_public = side == Side::among_participants
+                         ? keys.own_public
+                         : read_key(public_file(directory, orchestrator ? "participant" : "orchestrator"));
   return keys;
 }
 

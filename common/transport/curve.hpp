@@ -4,6 +4,7 @@
 ///     participant.key   participant.pub      secret and public key shared by a run's participants
 ///
 /// The orchestrator needs orchestrator.key and participant.pub, a participant participant.key and orchestrator.pub.
+/// Between themselves participants know each other by the pair that they share.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ struct CurveKeys {
   std::string peer_public;
 };
 
-enum class Side { orchestrator, participant };
+enum class Side { orchestrator, participant, among_participants };
 
 /// Makes the directory (readable by its owner only) and the four files. InputError where one of them exists already:
 /// keys in use are never overwritten.

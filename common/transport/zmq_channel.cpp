@@ -44,7 +44,9 @@ ZmqChannel::ZmqChannel(const std::string& endpoint, End end, const ZmqOptions& o
     throw std::system_error(errno, std::generic_category(), "zmq_socket_monitor");
   }
   monitor_.connect(monitor_endpoint);
-  const auto keys = keys_for(options_, end == End::bind ? Side::orchestrator : Side::participant);
+  const auto keys = keys_for(options_, options_.among_participants ? Side::among_participants
+                                       : end == End::bind          ? Side::orchestrator
+                                                                   : Side::participant);
   try {
     if (end == End::bind) {
       zap_.emplace(context_, keys);

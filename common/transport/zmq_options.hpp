@@ -14,6 +14,7 @@ namespace grainstep::transport {
 struct ZmqOptions {
   std::string peer = "peer";             ///< the other end's name in errors
   std::filesystem::path curve_dir = {};  ///< keys (curve.hpp); empty: not encrypted
+  bool among_participants = false;       ///< both ends are: the keys are those that they share
   bool allow_plain_tcp = false;  ///< unencrypted tcp beyond this host, e.g. inside a private network of containers
   double heartbeat_s = 1.0;      ///< a peer is asked for a sign of life this often ...
   /// ... and lost when no message of it has come for this long. Only for peers that are cut off or frozen: the end of a

@@ -5,6 +5,10 @@
 namespace grainstep::wire {
 
 const Frame* MessageChannel::receive(transport::Deadline deadline) {
+  if (put_back_) {
+    put_back_ = false;
+    return &frame_;
+  }
   if (!channel_.receive(received_, deadline)) {
     return nullptr;
   }

@@ -27,6 +27,12 @@ class MessageChannel {
   /// The next message, valid until the next call; nullptr at the deadline.
   [[nodiscard]] const Frame* receive(transport::Deadline deadline);
 
+  /// What receive() gave last will be given once more: it has come before its turn.
+  void put_back() noexcept { put_back_ = true; }
+  [[nodiscard]] bool is_put_back() const noexcept { return put_back_; }
+  /// It is not wanted again after all.
+  void drop() noexcept { put_back_ = false; }
+
   /// Fills `message` from `frame`. PeerError "expected Ready, got ..." when the frame is of another kind.
   template <Body Message>
   void take(const Frame& frame, Message& message) const {
@@ -66,6 +72,7 @@ class MessageChannel {
   Decoder decoder_;
   transport::Bytes received_;
   Frame frame_;
+  bool put_back_ = false;
 };
 
 }  // namespace grainstep::wire

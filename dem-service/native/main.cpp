@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
   int threads = 1;
   program.number("threads", "Threads; results do not depend on their number", threads, 1, 1024);
   if (const auto code = program.parse(argc, argv)) return *code;
-  return program.run([threads](grainstep::transport::Channel& channel) {
+  return program.run([&program, threads](grainstep::transport::Channel& channel) {
     const auto impactor = grainstep::dem::native::make_impactor(threads);
-    return grainstep::participant::serve_impactor(channel, *impactor);
+    return grainstep::participant::serve_impactor(channel, *impactor, program.serving());
   });
 }

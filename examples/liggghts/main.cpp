@@ -9,9 +9,9 @@ int main(int argc, char** argv) {
   std::string log;
   program.option("liggghts-log", "Write LIGGGHTS's own log to this file", log);
   if (const auto code = program.parse(argc, argv)) return *code;
-  const int code = program.run([&log](grainstep::transport::Channel& channel) {
+  const int code = program.run([&program, &log](grainstep::transport::Channel& channel) {
     SlugImpactor slug(log);
-    return grainstep::participant::serve_impactor(channel, slug);
+    return grainstep::participant::serve_impactor(channel, slug, program.serving());
   });
   grainstep::dem::end_mpi();
   return code;

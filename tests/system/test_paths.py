@@ -15,11 +15,13 @@ def shared_memory_of(process):
 
 
 class Paths(unittest.TestCase):
-    def test_both_give_the_same_bits(self):
-        runs = {path: ended(self, *SHORT, "--path", path) for path in ("hub", "shared")}
+    def test_all_give_the_same_bits(self):
+        runs = {path: ended(self, *SHORT, "--path", path) for path in ("hub", "shared", "direct")}
         for path, run in runs.items():
             self.assertEqual(run.summary()["path"], path)
-        self.assertEqual(*(datasets(run.out / "results.h5") for run in runs.values()))
+        bits = [datasets(run.out / "results.h5") for run in runs.values()]
+        self.assertEqual(bits[0], bits[1])
+        self.assertEqual(bits[0], bits[2])
 
     def test_the_short_one_is_taken_where_both_are_started_here(self):
         self.assertEqual(ended(self, *SHORT).summary()["path"], "shared")
@@ -53,6 +55,36 @@ class Paths(unittest.TestCase):
             self.assertEqual(run.code, 130, run.stderr)
             run.left_over()
             self.assertEqual(run.summary()["status"], "interrupted")
+
+
+class Direct(unittest.TestCase):
+    """A connection between the participants."""
+
+    def test_is_refused_where_the_structure_cannot_listen(self):
+        with Run(*SHORT, *SPRING, "--path", "direct") as run:
+            run.end()
+            self.assertEqual(run.code, 2, run.stderr)
+            self.assertIn("--path direct: the structure (", run.stderr)
+            self.assertIn("does not listen for the impactor", run.stderr)
+
+    def test_an_interrupted_run_ends_at_once_and_leaves_no_socket(self):
+        with Run(*LONG, "--path", "direct") as run:
+            run.wait_for_rows()
+            os.kill(run.process.pid, signal.SIGINT)
+            run.end(AT_ONCE)
+            self.assertEqual(run.code, 130, run.stderr)
+            run.left_over()
+            self.assertEqual(run.summary()["path"], "direct")
+
+    def test_the_one_that_is_lost_is_named(self):
+        for side in ("impactor", "structure"):
+            with self.subTest(side), Run(*LONG, "--path", "direct") as run:
+                run.wait_for_rows()
+                os.kill(run.process_of(side), signal.SIGKILL)
+                run.end(AT_ONCE)
+                self.assertEqual(run.code, 4, run.stderr)
+                self.assertIn(f"{side}: ", run.summary()["reason"])
+                run.left_over()
 
 
 if __name__ == "__main__":

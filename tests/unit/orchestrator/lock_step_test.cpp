@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "both_paths.hpp"
+#include "each_path.hpp"
 #include "hand_played.hpp"
 #include "patience.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Of both paths: what is checked must not depend on the way.
+/// Of all paths: what is checked must not depend on the way.
 class HandPlayed : public ::testing::TestWithParam<Path> {
  protected:
   HandPlayed() : hub_(*impactor_.near_, *structure_.near_, loop_) {
@@ -28,7 +28,8 @@ class HandPlayed : public ::testing::TestWithParam<Path> {
     start_.set_window(1e-3);
     start_.set_windows(10);
     start_.set_report_every(5);
-    if (GetParam() == Path::hub) return;
+    if (GetParam() == Path::direct) start_.mutable_direct()->set_endpoint("between them");
+    if (GetParam() != Path::shared) return;
     listener_ = std::make_unique<Listener>(4);
     impactor_.share(listener_->file(), transport::SharedPath::Way::forces);
     structure_.share(listener_->file(), transport::SharedPath::Way::kinematics);
@@ -77,9 +78,16 @@ class HandPlayed : public ::testing::TestWithParam<Path> {
   Witness witness_;
   std::unique_ptr<Listener> listener_;
 };
-INSTANTIATE_TEST_SUITE_P(, HandPlayed, ::testing::Values(Path::hub, Path::shared), name_of_path);
+INSTANTIATE_TEST_SUITE_P(, HandPlayed, ::testing::Values(Path::hub, Path::shared, Path::direct), name_of_path);
 
-TEST_P(HandPlayed, PassesForcesOnUnchanged) {
+/// Copies of what went between the sides: who did not wait for whom does not show.
+class HandPlayedInTurn : public HandPlayed {};
+INSTANTIATE_TEST_SUITE_P(, HandPlayedInTurn, ::testing::Values(Path::hub, Path::shared), name_of_path);
+
+class HandPlayedCopies : public HandPlayed {};
+INSTANTIATE_TEST_SUITE_P(, HandPlayedCopies, ::testing::Values(Path::direct), name_of_path);
+
+TEST_P(HandPlayedInTurn, PassesForcesOnUnchanged) {
   impactor_.data().send(forces(0, -0.1));
   EXPECT_THAT(run(0.2), HasSubstr("peer: structure: said nothing for"));
   const wire::Frame* frame = structure_.data().receive(transport::Clock::now());
@@ -96,13 +104,13 @@ TEST_P(HandPlayed, RefusesAWindowThatIsNotNext) {
   EXPECT_THAT(run(), HasSubstr("expected Forces of window 0, got Forces of window 1"));
 }
 
-TEST_P(HandPlayed, RefusesForcesThatDidNotWaitForTheSurface) {
+TEST_P(HandPlayedInTurn, RefusesForcesThatDidNotWaitForTheSurface) {
   impactor_.data().send(forces(0));
   impactor_.data().send(forces(1));
   EXPECT_THAT(run(), HasSubstr("peer: impactor: message 2: expected no Forces before the Kinematics of window 1"));
 }
 
-TEST_P(HandPlayed, RefusesKinematicsNobodyAskedFor) {
+TEST_P(HandPlayedInTurn, RefusesKinematicsNobodyAskedFor) {
   structure_.data().send(kinematics(1));
   EXPECT_THAT(run(), HasSubstr("peer: structure: message 1: expected no Kinematics before the next Forces"));
 }
@@ -198,6 +206,7 @@ TEST_P(HandPlayed, ASurfaceOfNoSpeedEndsTheRun) {
 }
 
 TEST_P(HandPlayed, AReportThatIsNoNumberEndsTheRun) {
+  impactor_.data().send(forces(0));
   wire::Report report;
   report.mutable_energy()->set_plastic(std::numeric_limits<double>::quiet_NaN());
   structure_.messages_->send(report);
@@ -247,7 +256,7 @@ TEST_P(HandPlayed, WhatIsReportedOfAWindowComesAfterItsForces) {
 
 // The sides are still to be stopped and heard: what they wrongly said on the short path is told once.
 TEST_P(HandPlayed, WhatComesAfterTheEndOnTheShortPathEndsNothingMore) {
-  if (GetParam() == Path::hub) return;
+  if (GetParam() != Path::shared) return;
   LockStep steps(hub_, witness_, start_, grainstep::testing::patience_s, listener_.get());
   impactor_.data().send(forces(0, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_THROW(steps.run(), NumericalError);
@@ -257,6 +266,44 @@ TEST_P(HandPlayed, WhatComesAfterTheEndOnTheShortPathEndsNothingMore) {
   const auto hear = [&heard](Peer&, const wire::Frame&) { ++heard; };
   EXPECT_NO_THROW(hub_.run(
       hear, [&heard] { return heard == 1; }, Hub::within(grainstep::testing::patience_s)));
+}
+
+TEST_P(HandPlayedCopies, AreNotPassedOn) {
+  impactor_.data().send(forces(0));
+  EXPECT_THAT(run(0.2), HasSubstr("peer: structure: said nothing for"));
+  EXPECT_EQ(structure_.data().receive(transport::Clock::now()), nullptr);
+}
+
+// One side's copies are here before those of the other that it waited for.
+TEST_P(HandPlayedCopies, WaitForTheirTurn) {
+  start_.set_windows(2);
+  start_.set_report_every(2);
+  structure_.data().send(kinematics(1));
+  structure_.messages_->send(report(0));
+  structure_.data().send(kinematics(2));
+  structure_.messages_->send(report(2));
+  for (const std::uint64_t window : {0, 1, 2}) {
+    impactor_.data().send(forces(window));
+    if (window != 1) impactor_.messages_->send(report(window));
+  }
+  EXPECT_EQ(run(), "");
+  EXPECT_EQ(witness_.order_, "forces report report forces forces report report ");
+}
+
+TEST_P(HandPlayedCopies, OfALaterWindowAreRefused) {
+  structure_.data().send(kinematics(2));
+  EXPECT_THAT(run(), HasSubstr("peer: structure: message 1: expected no Kinematics before the next Forces"));
+}
+
+// What one side said before the other failed counts, whoever was quicker.
+TEST_P(HandPlayedCopies, AreHeardAfterAFailure) {
+  LockStep steps(hub_, witness_, start_, 0.2);
+  EXPECT_THROW(steps.run(), PeerError);
+  impactor_.data().send(forces(0));
+  const auto hear = [&steps](Peer& peer, const wire::Frame& frame) { steps.late(peer, frame); };
+  static_cast<void>(hub_.run(
+      hear, [this] { return !witness_.forces_.empty(); }, Hub::within(grainstep::testing::patience_s)));
+  EXPECT_EQ(witness_.forces_.size(), 1U);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "both_paths.hpp"
+#include "base/temporary_directory.hpp"
+#include "each_path.hpp"
 #include "fake_backends.hpp"
 #include "hand_played.hpp"
 #include "ledger/ledger.hpp"
@@ -51,12 +52,13 @@ class Stage {
     std::ostringstream quiet_i;
     std::ostringstream quiet_s;
     std::thread impactor([this, far = std::move(i_far), &quiet_i]() mutable {
-      impactor_code_ =
-          participant::serve_impactor(*far, impactor_, {.shared_memory = impactor_shares_, .errors = &quiet_i});
+      impactor_code_ = participant::serve_impactor(
+          *far, impactor_, {.shared_memory = impactor_shares_, .direct = connecting(), .errors = &quiet_i});
       far.reset();
     });
     std::thread structure([this, far = std::move(s_far), &quiet_s]() mutable {
-      structure_code_ = participant::serve_structure(*far, structure_, {.errors = &quiet_s});
+      structure_code_ =
+          participant::serve_structure(*far, structure_, {.direct = {{.listen = listens_at()}}, .errors = &quiet_s});
       structure_ended_();
       far.reset();
     });
@@ -76,14 +78,25 @@ class Stage {
                        .step_s = grainstep::testing::patience_s,
                        .stop_s = grainstep::testing::patience_s};
   bool impactor_shares_ = true;
-  Path taken_ = Path::shared_if_possible;
+  bool impactor_connects_ = true;
+  bool structure_listens_ = true;
+  bool one_host_ = true;
+  Path taken_ = Path::shortest;
   int impactor_code_ = -1;
   int structure_code_ = -1;
   std::function<void()> structure_ended_ = [] {};  // it has said all that it says
 
  private:
+  [[nodiscard]] std::string listens_at() const {
+    return structure_listens_ ? "ipc://" + (directory_.path() / "data").string() : "";
+  }
+  [[nodiscard]] std::optional<participant::DirectOptions> connecting() const {
+    if (!impactor_connects_) return std::nullopt;
+    return participant::DirectOptions{};
+  }
+
   std::string converse(Hub& hub, double end) {
-    Session session(hub, {.scene = scene_, .hash = 77, .end = end, .path = path_}, deadlines_);
+    Session session(hub, {.scene = scene_, .hash = 77, .end = end, .path = path_, .one_host = one_host_}, deadlines_);
     try {
       session.introduce();
       plan_ = session.prepare();
@@ -103,6 +116,7 @@ class Stage {
   }
 
   Path path_;
+  TemporaryDirectory directory_;
   scene::Scene scene_;
   fake::BallImpactor impactor_;
   fake::SpringStructure structure_;
@@ -121,7 +135,7 @@ ledger::Balance last_balance(Stage& stage) {
 }
 
 class WholeSession : public ::testing::TestWithParam<Path> {};
-INSTANTIATE_TEST_SUITE_P(, WholeSession, ::testing::Values(Path::hub, Path::shared), name_of_path);
+INSTANTIATE_TEST_SUITE_P(, WholeSession, ::testing::Values(Path::hub, Path::shared, Path::direct), name_of_path);
 
 TEST_P(WholeSession, RunsToTheEndAndSeesEverything) {
   Stage stage(GetParam());
@@ -222,34 +236,46 @@ TEST_P(WholeSession, RefusesFixedStepsAfterTheModelsAreKnown) {
   EXPECT_THAT(stage.run(), HasSubstr("input: steps.structure"));
 }
 
-std::string run_with_one_that_cannot(Path path, Path& taken) {
-  Stage stage(path);
-  stage.impactor_shares_ = false;
-  std::string end = stage.run();
-  taken = stage.taken_;
-  return end;
-}
-
-TEST(SessionPath, IsThatThroughTheHubWhereOneSideCannotShareMemory) {
-  Path taken = Path::shared;
-  EXPECT_EQ(run_with_one_that_cannot(Path::shared_if_possible, taken), "");
-  EXPECT_EQ(taken, Path::hub);
+TEST(SessionPath, IsTheShortestThatBothCanTake) {
+  const auto taken = [](bool one_host, bool shares, bool connects, bool listens) {
+    Stage stage(Path::shortest);
+    stage.one_host_ = one_host;
+    stage.impactor_shares_ = shares;
+    stage.impactor_connects_ = connects;
+    stage.structure_listens_ = listens;
+    EXPECT_EQ(stage.run(), "");
+    return stage.taken_;
+  };
+  EXPECT_EQ(taken(true, true, true, true), Path::shared);
+  EXPECT_EQ(taken(false, true, true, true), Path::direct);
+  EXPECT_EQ(taken(true, false, true, true), Path::direct);
+  EXPECT_EQ(taken(true, false, false, true), Path::hub);
+  EXPECT_EQ(taken(true, false, true, false), Path::hub);
 }
 
 TEST(SessionPath, IsRefusedWhereItWasAskedForAndOneSideCannot) {
-  Path taken = Path::shared;
-  EXPECT_THAT(run_with_one_that_cannot(Path::shared, taken),
+  Stage shared(Path::shared);
+  shared.impactor_shares_ = false;
+  EXPECT_THAT(shared.run(),
               HasSubstr("input: --path shared: the impactor (ball) cannot share memory with the other side"));
+  Stage deaf(Path::direct);
+  deaf.structure_listens_ = false;
+  EXPECT_THAT(deaf.run(), HasSubstr("input: --path direct: the structure (spring) does not listen for the impactor"));
+  Stage mute(Path::direct);
+  mute.impactor_connects_ = false;
+  EXPECT_THAT(mute.run(), HasSubstr("input: --path direct: the impactor (ball) cannot connect to the structure"));
 }
 
-TEST(SessionPath, BothGiveTheSameBits) {
+TEST(SessionPath, AllGiveTheSameBits) {
   Stage hub(Path::hub);
-  Stage shared(Path::shared);
   ASSERT_EQ(hub.run(), "");
-  ASSERT_EQ(shared.run(), "");
-  ASSERT_EQ(hub.witness_.forces_.size(), shared.witness_.forces_.size());
-  for (std::size_t i = 0; i < hub.witness_.forces_.size(); ++i) {
-    EXPECT_EQ(hub.witness_.forces_[i].SerializeAsString(), shared.witness_.forces_[i].SerializeAsString());
+  for (const Path path : {Path::shared, Path::direct}) {
+    Stage other(path);
+    ASSERT_EQ(other.run(), "");
+    ASSERT_EQ(hub.witness_.forces_.size(), other.witness_.forces_.size());
+    for (std::size_t i = 0; i < hub.witness_.forces_.size(); ++i) {
+      EXPECT_EQ(hub.witness_.forces_[i].SerializeAsString(), other.witness_.forces_[i].SerializeAsString());
+    }
   }
 }
 

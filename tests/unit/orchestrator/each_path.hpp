@@ -10,7 +10,6 @@
 
 namespace grainstep::orchestrator {
 
-inline std::string text_of(Path path) { return path == Path::hub ? "hub" : "shared"; }
 inline std::string name_of_path(const ::testing::TestParamInfo<Path>& path) { return text_of(path.param); }
 inline void PrintTo(Path path, std::ostream* out) { *out << text_of(path); }
 
