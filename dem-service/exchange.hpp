@@ -53,6 +53,10 @@ class Exchange {
     }
   }
 
+  /// The state of window n (participant/backend.hpp), of an engine that has it in one process.
+  [[nodiscard]] bool wants_state(std::uint64_t window) { return link_ != nullptr && link_->wants_state(window); }
+  void send_state(const std::string& state) { link_->send_state(state); }
+
   /// After the run. Throws on the root what failed in any process.
   void finish();
 

@@ -50,6 +50,16 @@ class PlaneContacts {
   [[nodiscard]] double stored() const { return stored_; }  ///< J, at the last evaluation
   [[nodiscard]] double take_largest_overlap() { return std::exchange(largest_overlap_, 0.0); }  ///< over the diameter
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("candidates", candidates_);
+    archive("contacts", contacts_);
+    archive("ledger", ledger_);
+    archive("particles' side", particle_side_);
+    archive("stored", stored_);
+    archive("largest overlap", largest_overlap_);
+  }
+
  private:
   struct Contact {
     int particle;

@@ -49,6 +49,22 @@ class StepDriver {
   /// m, x2 of the surface's highest node now.
   [[nodiscard]] double top_of_surface() const;
 
+  /// What a step leaves for the next one, at the end of a window.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("surface", surface_);
+    archive("contacts with it", contacts_);
+    for (PlaneContacts& plane : planes_) archive("plane", plane);
+    archive("largest overlap of pairs", largest_pair_overlap_);
+    archive("dissipation", dissipation_);
+    archive("nodal impulses", nodal_);
+  }
+
+  /// Whether somebody wants the state at the end of this step; asked once, after end_of_step().
+  [[nodiscard]] bool state_is_wanted(std::uint64_t step) {
+    return !ended_ && step % start_.impactor_steps() == 0 && exchange_.wants_state(step / start_.impactor_steps());
+  }
+
   /// No further step is wanted.
   [[nodiscard]] bool ended() const { return ended_; }
 

@@ -19,6 +19,17 @@ struct Nodes {
   Array fx, fy;        ///< N, internal
   Array mass;          ///< kg; 0 in the padding
   Array inverse_mass;  ///< 1/kg; 0 in the padding
+
+  /// What a step changes.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive.fixed("x", x);
+    archive.fixed("y", y);
+    archive.fixed("u", u);
+    archive.fixed("v", v);
+    archive.fixed("fx", fx);
+    archive.fixed("fy", fy);
+  }
 };
 
 struct SweepResult {
@@ -88,6 +99,18 @@ class Body {
   [[nodiscard]] TriangleNodes triangle(int row, int column, int triangle) const;
 
   Nodes corners, centres;
+
+  /// What a step changes, of a body of the same mesh and layers.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("corners", corners);
+    archive("centres", centres);
+    archive.fixed("elements", state_);
+    for (Resistance& row : resistance_) {
+      archive("viscosity", row.viscosity);
+      archive.fixed("viscous stress", row.stress);
+    }
+  }
 
  private:
   /// What each row needs of its own while others are swept at the same time: two rows share the corners between them.

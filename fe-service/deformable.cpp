@@ -56,7 +56,6 @@ void Deformable::fill_ready(wire::Ready& ready) const {
 }
 
 void Deformable::start(const wire::Start& start) {
-  check_start(start);
   start_ = start;
   if (!(start.window() > 0.0) || start.structure_steps() == 0) {
     throw InputError(

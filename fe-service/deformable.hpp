@@ -11,6 +11,7 @@
 /// the interface impulse at t(n) is the sum of J(m < n) plus J(n)/2.
 #pragma once
 
+#include "base/archive.hpp"
 #include "fe-service/guards.hpp"
 #include "fe-service/observe.hpp"
 #include "fe-service/windows.hpp"
@@ -39,6 +40,28 @@ class Deformable final : public WindowedStructure {
   void report(wire::Report& report) override;
   void snapshot(wire::Snapshot& snapshot) override;
   void complete() override;
+  [[nodiscard]] std::string save() override { return base::saved(*this); }
+  void restore(std::string_view state) override { base::restore(*this, state); }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("body", body_);
+    archive("stable step", stable_step_);
+    archive("window", window_);
+    archive("substeps", substeps_);
+    archive("step before", step_before_);
+    archive("received", received_);
+    archive("plastic work", plastic_work_);
+    archive("viscous work", viscous_work_);
+    archive("quality", min_quality_);
+    archive("steps", steps_);
+    archive("last good time", last_good_time_);
+    archive("peak deflection", peak_deflection_);
+    archive("its time", peak_deflection_time_);
+    archive("peak compression", peak_compression_);
+    archive("its time", peak_compression_time_);
+    archive("sums over elements", element_sums_);
+  }
 
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] std::uint32_t substeps() const { return substeps_; }

@@ -64,7 +64,6 @@ void Rigid::fill_ready(wire::Ready& ready) const {
 }
 
 void Rigid::start(const wire::Start& start) {
-  check_start(start);
   window_length_ = start.window();
   steps_ = start.structure_steps();
 }

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "base/archive.hpp"
 #include "fe-service/measure.hpp"
 #include "fe-service/triangle.hpp"
 #include "fe-service/windows.hpp"
@@ -23,6 +24,19 @@ class Rigid final : public WindowedStructure {
   void report(wire::Report& report) override;
   void snapshot(wire::Snapshot& snapshot) override;
   void complete() override {}
+  [[nodiscard]] std::string save() override { return base::saved(*this); }
+  void restore(std::string_view state) override { base::restore(*this, state); }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("velocity", velocity_);
+    archive("height", height_);
+    archive("work", work_);
+    archive("received", received_);
+    archive("peak deflection", peak_);
+    archive("its time", peak_time_);
+    archive("window", window_);
+  }
 
  private:
   using Doubles = google::protobuf::RepeatedField<double>;

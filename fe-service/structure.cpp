@@ -13,8 +13,8 @@ namespace grainstep::fe {
 wire::Hello Structure::describe() const {
   wire::Hello hello = participant::hello(
       wire::STRUCTURE, std::string("grainstep-fe (") + available_kernels().front()->name + ")", GRAINSTEP_VERSION, {2});
-  for (const char* capability :
-       {"beam", "plate", "rigid", "plane_strain", "axisymmetric", "initial_velocity", "bulk_viscosity", "threads"})
+  for (const char* capability : {"beam", "plate", "rigid", "plane_strain", "axisymmetric", "initial_velocity",
+                                 "bulk_viscosity", "threads", "state"})
     hello.add_capabilities(capability);
   for (const std::string& material : layer_words()) hello.add_capabilities(material);
   return hello;

@@ -20,6 +20,8 @@ class Structure final : public participant::StructureBackend {
   void report(wire::Report& report) override;
   void snapshot(wire::Snapshot& snapshot) override;
   void complete() override;
+  [[nodiscard]] std::string save() override { return prepared().save(); }
+  void restore(std::string_view state) override { prepared().restore(state); }
 
  private:
   [[nodiscard]] WindowedStructure& prepared();

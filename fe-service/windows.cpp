@@ -41,11 +41,6 @@ void check_forces(const wire::Forces& forces, std::size_t nodes) {
   }
 }
 
-void check_start(const wire::Start& start) {
-  if (start.first_window() == 0) return;
-  throw InputError(fmt::format("start: grainstep-fe starts at window 0, asked for window {}", start.first_window()));
-}
-
 void add_observable(wire::Report& report, const char* name, const char* unit, double value) {
   wire::Observable& observable = *report.add_observable();
   observable.set_name(name);

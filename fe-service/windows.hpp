@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "base/team.hpp"
 #include "participant/backend.hpp"
@@ -18,6 +20,9 @@ class WindowedStructure {
   virtual void report(wire::Report& report) = 0;
   virtual void snapshot(wire::Snapshot& snapshot) = 0;
   virtual void complete() = 0;
+  /// The state after complete(), and back in place of it (common/base/archive.hpp).
+  [[nodiscard]] virtual std::string save() = 0;
+  virtual void restore(std::string_view state) = 0;
 };
 
 /// A rigid target (rigid.hpp) or a deformable body (deformable.hpp), as the scene asks.
@@ -27,9 +32,6 @@ class WindowedStructure {
 
 /// Throws PeerError unless the message holds an impulse of two components for each of `nodes`, all finite.
 void check_forces(const wire::Forces& forces, std::size_t nodes);
-
-/// Throws InputError for a run that starts elsewhere than at its beginning.
-void check_start(const wire::Start& start);
 
 void add_observable(wire::Report& report, const char* name, const char* unit, double value);
 

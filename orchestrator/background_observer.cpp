@@ -42,6 +42,11 @@ void BackgroundObserver::snapshot(wire::Role side, wire::Snapshot snapshot) {
   put(Snapshot{side, std::move(snapshot)}, bytes, Wake::now);
 }
 
+void BackgroundObserver::checkpoint(Checkpoint checkpoint) {
+  const std::size_t bytes = checkpoint.impactor.size() + checkpoint.structure.size();
+  put(std::move(checkpoint), bytes, Wake::now);
+}
+
 void BackgroundObserver::idle() {
   if (failed_) rethrow();
 }
@@ -97,7 +102,8 @@ void BackgroundObserver::deal_with(std::vector<Event>& events) {
   const Overloaded handler{
       [this](const wire::Forces& forces) { observer_.forces(forces); },
       [this](const Report& report) { observer_.report(report.side, report.message); },
-      [this](Snapshot& snapshot) { observer_.snapshot(snapshot.side, std::move(snapshot.message)); }};
+      [this](Snapshot& snapshot) { observer_.snapshot(snapshot.side, std::move(snapshot.message)); },
+      [this](Checkpoint& checkpoint) { observer_.checkpoint(std::move(checkpoint)); }};
   for (Event& event : events) std::visit(handler, event);
 }
 

@@ -28,6 +28,7 @@ class BackgroundObserver final : public StepObserver {
   void forces(const wire::Forces& forces) override;
   void report(wire::Role side, const wire::Report& report) override;
   void snapshot(wire::Role side, wire::Snapshot snapshot) override;
+  void checkpoint(Checkpoint checkpoint) override;
   void idle() override;
 
   /// Waits until everything handed over is dealt with, the other's finish() included, and ends the thread. Throws the
@@ -43,7 +44,7 @@ class BackgroundObserver final : public StepObserver {
     wire::Role side;
     wire::Snapshot message;
   };
-  using Event = std::variant<wire::Forces, Report, Snapshot>;
+  using Event = std::variant<wire::Forces, Report, Snapshot, Checkpoint>;
 
   enum class Wake { now, later };
   void put(Event event, std::size_t bytes, Wake wake);

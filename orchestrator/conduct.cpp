@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "base/processor_time.hpp"
 #include "orchestrator/background_observer.hpp"
@@ -13,6 +14,7 @@
 #include "orchestrator/session.hpp"
 #include "orchestrator/summary.hpp"
 #include "results/atomic_file.hpp"
+#include "results/checkpoints.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -57,17 +59,17 @@ class Run {
                   .hash = how.preparation.hash,
                   .end = how.preparation.groups.end,
                   .path = how.path,
-                  .one_host = how.one_host},
+                  .one_host = how.one_host,
+                  .resume = how.resume != nullptr ? &how.resume->checkpoint : nullptr,
+                  .save_when = save_when(how)},
                  how.deadlines) {}
 
   void go() {
     const Preparation& p = how_.preparation;
-    results::write_atomically(how_.directory.scene(), p.yaml);
-    file_.emplace(how_.directory.results(), texts(p));
-    file_->add(results::Array{
-        .dataset = "/scene/end", .meaning = {"s", "when the run is to end"}, .values = {p.groups.end}, .indices = {}});
+    begin_file();
     session_.introduce();
     plan_ = session_.prepare();
+    if (how_.resume != nullptr) require_same(*how_.resume, about(), how_.inexact);
     if (!p.plan) print_warnings(*plan_);  // an external side has told its steps only now
     const wire::Ready& impactor = hub_.impactor().ready;
     const wire::Ready& structure = hub_.structure().ready;
@@ -78,8 +80,10 @@ class Run {
                                         .plan = *plan_,
                                         .surface = structure.surface(),
                                         .masses = {impactor.mass(), structure.mass()},
-                                        .levels = {impactor.ledger(), structure.ledger()}},
+                                        .levels = {impactor.ledger(), structure.ledger()},
+                                        .keep = keeper()},
                       how_.directory, *file_, [this](std::uint64_t window) { progress_->tick(window); });
+    if (how_.resume != nullptr) restore_recorder();
     background_.emplace(*recorder_);
     session_.run(*plan_, *background_);
   }
@@ -114,6 +118,55 @@ class Run {
   }
 
  private:
+  static std::function<bool()> save_when(const Conduct& how) {
+    if (how.schedule == nullptr) return {};
+    return [schedule = how.schedule] { return schedule->due(); };
+  }
+
+  [[nodiscard]] About about() const {
+    return {.scene_hash = how_.preparation.hash,
+            .plan = *plan_,
+            .impactor = hub_.impactor().hello.backend(),
+            .structure = hub_.structure().hello.backend(),
+            .ranks = how_.ranks};
+  }
+
+  void begin_file() {
+    const Preparation& p = how_.preparation;
+    if (how_.resume != nullptr) {
+      std::error_code none;
+      std::filesystem::remove(how_.directory.summary(), none);  // of the run that was ended: this one has none yet
+      file_.emplace(results::ResultsFile::GoOn{}, how_.directory.results(), how_.resume->contents);
+      return;
+    }
+    results::write_atomically(how_.directory.scene(), p.yaml);
+    file_.emplace(how_.directory.results(), texts(p));
+    file_->add(results::Array{
+        .dataset = "/scene/end", .meaning = {"s", "when the run is to end"}, .values = {p.groups.end}, .indices = {}});
+  }
+
+  /// Called in the recorder's thread.
+  std::function<void(Checkpoint, std::string)> keeper() {
+    if (how_.schedule == nullptr) return {};
+    return [this, about = text_of(about())](Checkpoint checkpoint, std::string recorder) {
+      const std::uint64_t window = checkpoint.window;
+      const Resume resume{.checkpoint = std::move(checkpoint),
+                          .contents = file_->contents(),
+                          .recorder = std::move(recorder),
+                          .about = about};
+      results::Checkpoints(how_.directory.checkpoints()).write(window, parts_of(resume));
+      how_.schedule->written();
+    };
+  }
+
+  void restore_recorder() {
+    try {
+      recorder_->restore(how_.resume->recorder);
+    } catch (const std::range_error& error) {
+      throw InputError(std::string("the checkpoint's part of the orchestrator is not of this run: ") + error.what());
+    }
+  }
+
   // A peer that is lost after we stood still was not at fault: silence is what both sides saw.
   [[nodiscard]] std::string own_part() const {
     const double seconds = hub_.standstill().count();

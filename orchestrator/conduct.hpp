@@ -9,6 +9,8 @@
 #include "orchestrator/hub.hpp"
 #include "orchestrator/preparation.hpp"
 #include "orchestrator/progress.hpp"
+#include "orchestrator/resume.hpp"
+#include "orchestrator/save_schedule.hpp"
 #include "orchestrator/session.hpp"
 #include "results/run_directory.hpp"
 
@@ -21,6 +23,10 @@ struct Conduct {
   Path path = Path::hub;
   bool one_host = true;  ///< Task::one_host
   Progress::Style progress = Progress::Style::quiet;
+  int ranks = 1;
+  const Resume* resume = nullptr;    ///< what to go on from; nullptr: the start
+  bool inexact = false;              ///< require_same()
+  SaveSchedule* schedule = nullptr;  ///< of checkpoints; nullptr: there are none
   /// Given the name of a lost peer: what else is known of its end. May be empty.
   std::function<std::string(const std::string&)> account_of;
 };

@@ -23,7 +23,8 @@ struct Fidelity {
   double processor_seconds = 0;  ///< of the reference beam
 };
 
-/// The rows of a study's series.csv that leave both steps to `auto` and have numbers. Coarse particles deflect the beam
+/// The rows of a study's series.csv that leave both steps to `auto` and have numbers; of the series "native, ..." only
+/// the run that all others are compared with. Coarse particles deflect the beam
 /// too much and coarse meshes too little; where the two happen to cancel, they need not do so in another scene. So a
 /// setting's errors are the largest of all settings that are in nothing coarser. @throws InputError
 [[nodiscard]] std::vector<Fidelity> read_fidelities(const std::string& csv);

@@ -38,7 +38,9 @@ LockStep::LockStep(Hub& hub, StepObserver& observer, const wire::Start& start, d
       position_(hub.structure().ready.surface().position().begin(), hub.structure().ready.surface().position().end()),
       next_forces_(start.first_window()),
       impactor_{.check = ReportCheck(dimension_)},
-      structure_{.check = ReportCheck(dimension_)} {
+      structure_{.check = ReportCheck(dimension_)},
+      saving_(hub),
+      structure_owes_(start.first_window() > 0) {
   for (const double x : position_) size_ = std::max(size_, std::abs(x));
   for (Extra* side : {&impactor_, &structure_}) {
     const std::uint64_t first = start.first_window();
@@ -60,6 +62,7 @@ void LockStep::run() {
   hub_.structure().heard = now;
   const auto until = [this] {
     observer_.idle();
+    save_if_due();
     return deadline();
   };
   if (!hub_.run([this](Peer& peer, const wire::Frame& frame) { handle(peer, frame); }, [this] { return done(); },
@@ -77,6 +80,7 @@ transport::Deadline LockStep::deadline() const {
 }
 
 const Peer& LockStep::waited_for() const {
+  if (forces_wait()) return *saving_.owing();
   if (structure_owes_) {
     return hub_.structure();
   }
@@ -91,13 +95,20 @@ bool LockStep::done() const {
          structure_.last_report && structure_.last_snapshot;
 }
 
-// The sides wait for each other, and not for us: their copies may overtake each other by one window.
+// The sides wait for each other, and not for us: what they say here may overtake what went between them.
 bool LockStep::early(const Peer& peer, const wire::Frame& frame) const {
-  const std::optional<std::uint64_t> window = wire::window_of(frame);
-  if (!direct_ || !window) return false;
-  if (frame.kind == wire::Envelope::kForces) return structure_owes_ && *window == next_forces_;
-  if (frame.kind == wire::Envelope::kKinematics) return !structure_owes_ && *window == next_forces_ + 1;
-  return peer.role == wire::STRUCTURE && *window == next_forces_ && !structure_owes_;
+  const std::uint64_t window = wire::window_of(frame).value_or(0);
+  const auto kind = frame.kind;
+  if (kind == wire::Envelope::kForces && forces_wait()) return true;
+  if (kind == wire::Envelope::kForces) return direct_ && structure_owes_ && window == next_forces_;
+  if (kind == wire::Envelope::kKinematics) return direct_ && !structure_owes_ && window == next_forces_ + 1;
+  const bool report = kind == wire::Envelope::kReport;
+  const Extra& side = peer.role == wire::IMPACTOR ? impactor_ : structure_;
+  const bool next =
+      (report && window == side.next_report) || (kind == wire::Envelope::kSnapshot && window == side.next_snapshot);
+  if (!next) return false;
+  if (saving_.holds_back() && window > saving_.window()) return true;
+  return (direct_ || listener_) && peer.role == wire::STRUCTURE && window >= next_forces_;
 }
 
 void LockStep::handle(Peer& peer, const wire::Frame& frame) {
@@ -110,6 +121,8 @@ void LockStep::handle(Peer& peer, const wire::Frame& frame) {
     on_report(peer, frame);
   } else if (frame.kind == wire::Envelope::kSnapshot) {
     on_snapshot(peer, frame);
+  } else if (saving_.take(peer, frame)) {
+    hand_over_checkpoint();
   } else {
     peer.messages.refuse(peer.role == wire::IMPACTOR ? "Forces, Report or Snapshot" : "Kinematics, Report or Snapshot",
                          frame);
@@ -153,7 +166,26 @@ void LockStep::take_what_came() {
   }
 }
 
+void LockStep::save_if_due() {
+  if (!save_due_ || next_forces_ > start_.windows() || !saving_.possible()) return;
+  if (save_due_()) saving_.ask();
+}
+
+void LockStep::hand_over_checkpoint() {
+  if (auto checkpoint = saving_.completed()) observer_.checkpoint(std::move(*checkpoint));
+}
+
+void LockStep::go_on_from(const std::vector<double>& surface) {
+  if (surface.size() != position_.size()) {
+    throw PeerError(hub_.structure().name(), "has a surface of " + std::to_string(position_.size()) +
+                                                 " coordinates, the checkpoint one of " +
+                                                 std::to_string(surface.size()));
+  }
+  position_ = surface;
+}
+
 bool LockStep::take_next() {
+  if (forces_wait()) return false;
   const transport::Deadline now = transport::Clock::now();
   // As on the other path: what the impactor reports of a window comes before its Forces of the next.
   if (!structure_owes_ && (impactor_.next_report < next_forces_ || impactor_.next_snapshot < next_forces_))
@@ -195,6 +227,7 @@ void LockStep::on_forces(wire::MessageChannel& from, const wire::Frame& frame) {
   from.take(frame, forces_, window);
   require_size(impactor, "Forces", window, forces_.impulse_size());
   require_finite(impactor, "Forces", window, forces_.impulse());
+  if (forces_.save()) saving_.begin(window, position_);
   observer_.forces(forces_);
 }
 

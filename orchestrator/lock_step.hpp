@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "orchestrator/check_report.hpp"
 #include "orchestrator/hub.hpp"
 #include "orchestrator/listener.hpp"
+#include "orchestrator/saving.hpp"
 #include "orchestrator/step_observer.hpp"
 
 namespace grainstep::orchestrator {
@@ -25,6 +28,13 @@ class LockStep {
 
   void run();
 
+  /// Asked now and then while run() goes on: whether both sides are to be asked for their states, which go to the
+  /// observer as a checkpoint. Nothing where one of them cannot.
+  void save_when(std::function<bool()> due) { save_due_ = std::move(due); }
+
+  /// A run that goes on: the surface where it was at the end of the window before (m, nodes x dimension).
+  void go_on_from(const std::vector<double>& surface);
+
   /// When the side that is waited for has been silent for too long.
   [[nodiscard]] transport::Deadline deadline() const;
 
@@ -36,15 +46,17 @@ class LockStep {
   void handle(Peer& peer, const wire::Frame& frame);
   void on_forces(wire::MessageChannel& from, const wire::Frame& frame);
   void on_kinematics(wire::MessageChannel& from, const wire::Frame& frame);
-  /// Whether this is a copy of data, or what was said after them, which came before what the other side had to say
-  /// first.
+  /// Whether this came before what the other side has said first, or before the states that it is to wait for.
   [[nodiscard]] bool early(const Peer& peer, const wire::Frame& frame) const;
+  [[nodiscard]] bool forces_wait() const { return saving_.holds_back() && !structure_owes_; }
   void listen();
   void take_what_came();           ///< on the short path
   [[nodiscard]] bool take_next();  ///< false: nothing is there whose turn it is
   void take(wire::MessageChannel& from, const wire::Frame& frame);
   void on_report(Peer& peer, const wire::Frame& frame);
   void on_snapshot(Peer& peer, const wire::Frame& frame);
+  void save_if_due();
+  void hand_over_checkpoint();
   void require_size(const Peer& peer, const char* what, std::uint64_t window, int found) const;
   void require_motion(const Peer& structure);
   [[nodiscard]] bool done() const;
@@ -76,8 +88,10 @@ class LockStep {
   wire::Forces forces_;  // kept: their capacity is reused
   wire::Kinematics kinematics_;
   wire::Report report_;
-  bool deaf_ = false;            // listening has failed
-  bool structure_owes_ = false;  // Forces were forwarded, the Kinematics they lead to are not here yet
+  std::function<bool()> save_due_;
+  Saving saving_;
+  bool deaf_ = false;    // listening has failed
+  bool structure_owes_;  // Forces were forwarded, the Kinematics they lead to are not here yet
 };
 
 }  // namespace grainstep::orchestrator

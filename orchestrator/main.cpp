@@ -1,5 +1,5 @@
-/// @file grainstep: run, check, show. Its commands `study` and `conformance` are another program (study_main.cpp),
-/// which whoever wants a single run need not build (docs/decisions/0018-first-build.md).
+/// @file grainstep: run, resume, check, show. Its commands `study` and `conformance` are another program
+/// (study_main.cpp), which whoever wants a single run need not build (docs/decisions/0018-first-build.md).
 #include <unistd.h>
 
 #include <cerrno>

@@ -25,15 +25,17 @@ void add_allowances(CLI::App& command, Options& options) {
                    "Let the scene run a LAMMPS script, which can do anything on this machine");
 }
 
-CLI::App* add_run(CLI::App& app, RunOptions& options) {
-  CLI::App* run = app.add_subcommand("run", "Compute a scene");
-  add_scene(*run, options.scene);
-  run->add_option("--out", options.out, "Directory of the results (default: runs/<name of the scene>)");
+/// What `run` and `resume` have in common.
+void add_run_options(CLI::App* run, RunOptions& options) {
   run->add_option("--ranks", options.ranks, "MPI ranks of the impactor")->check(CLI::Range(1, 4096));
   run->add_option("--threads", options.threads,
                   "Threads of both participants together, where they can use them (default: one per core)")
       ->check(CLI::Range(1, 4096));
-  run->add_flag("--force", options.force, "Replace the run that is in the directory");
+  run->add_option("--checkpoint-every", options.checkpoint_every_s,
+                  "Seconds between two checkpoints, from which grainstep resume goes on; 0: only when the run is ended "
+                  "by Ctrl-C or SIGTERM")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
   run->add_flag("--quiet", options.quiet, "No progress, no summary on the terminal");
   run->add_option("--connect-deadline", options.deadlines.connect_s, "Seconds until both participants must be there")
       ->check(participant::positive_number());
@@ -52,7 +54,25 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--curve-dir", options.curve_dir, "Directory with the keys that encrypt tcp");
   run->add_flag("--allow-plain-tcp", options.allow_plain_tcp, "Let tcp leave this host without encryption");
   add_allowances(*run, options);
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& options) {
+  CLI::App* run = app.add_subcommand("run", "Compute a scene");
+  add_scene(*run, options.scene);
+  run->add_option("--out", options.out, "Directory of the results (default: runs/<name of the scene>)");
+  run->add_flag("--force", options.force, "Replace the run that is in the directory");
+  add_run_options(run, options);
   return run;
+}
+
+CLI::App* add_resume(CLI::App& app, RunOptions& options) {
+  CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its latest checkpoint, bit for bit");
+  resume->add_option("directory", options.out, "Directory of the run")->required();
+  resume->add_option("--from", options.from, "Window of another checkpoint (grainstep show lists them)");
+  resume->add_flag("--inexact", options.inexact,
+                   "Go on with another build, instruction set or number of ranks, too: not bit for bit");
+  add_run_options(resume, options);
+  return resume;
 }
 
 CLI::App* add_check(CLI::App& app, CheckOptions& options) {
@@ -159,7 +179,10 @@ CommandLine parse(int argc, const char* const* argv) {
   RunOptions run_options;
   CheckOptions check_options;
   ShowOptions show_options;
+  RunOptions resume_options;
+  resume_options.resume = true;
   const CLI::App* run = add_run(app, run_options);
+  const CLI::App* resume = add_resume(app, resume_options);
   const CLI::App* check = add_check(app, check_options);
   CLI::App* show = app.add_subcommand("show", "What a finished or running run says");
   show->add_option("directory", show_options.directory, "Directory of a run")->required();
@@ -181,6 +204,8 @@ CommandLine parse(int argc, const char* const* argv) {
   }
   if (run->parsed()) {
     out.run = run_options;
+  } else if (resume->parsed()) {
+    out.run = resume_options;
   } else if (check->parsed()) {
     out.check = check_options;
   } else if (study->parsed()) {

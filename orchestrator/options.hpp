@@ -1,6 +1,7 @@
 /// @file What the command line says.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,6 +30,10 @@ struct RunOptions {
   std::vector<std::string> external;  ///< "impactor", "structure"
   bool allow_program = false;         ///< that the scene names, and that is not ours
   bool allow_deck = false;            ///< LAMMPS scripts may be run
+  double checkpoint_every_s = 600.0;  ///< 0: only before an end from outside
+  bool resume = false;                ///< go on with what is in `out`
+  std::optional<std::uint64_t> from;  ///< that window's checkpoint; the latest
+  bool inexact = false;               ///< by another build, too
   std::string path = "auto";          ///< of data: auto, hub, shared, direct
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "ledger/observables.hpp"
 #include "orchestrator/progress.hpp"
@@ -29,6 +30,11 @@ ledger::SurfaceLoad surface_load(const Recorder::Context& context) {
              : ledger::SurfaceLoad(context.surface, context.scene.depth());
 }
 
+/// A run that goes on has described them already.
+bool has_profiles(const results::Contents& contents) {
+  return contents.contains("/profiles/x1") || contents.contains("/profiles/position");
+}
+
 }  // namespace
 
 Recorder::Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
@@ -42,6 +48,7 @@ Recorder::Recorder(const Context& context, const results::RunDirectory& director
       masses_(context.masses),
       levels_(context.levels),
       tick_(std::move(tick)),
+      keep_(context.keep),
       load_(surface_load(context), {.window = context.plan.window, .steps = context.plan.impactor_steps},
             context.groups.loaded_area),
       sums_(load_.surface().dimension()),
@@ -49,8 +56,20 @@ Recorder::Recorder(const Context& context, const results::RunDirectory& director
   load_.watch(groups_.arrival + early_from * groups_.slug_time);
   load_.watch(groups_.arrival + early_to * groups_.slug_time);
   profile_mark_.assign(load_.surface().values(), 0.0);
-  describe_profiles();
+  if (!has_profiles(file_.contents())) describe_profiles();
 }
+
+void Recorder::make_ledger() {
+  ledger_.emplace(first_->impactor, first_->structure, plan_.impactor_steps == 1, masses_, levels_);
+}
+
+void Recorder::checkpoint(Checkpoint checkpoint) {
+  file_.flush();
+  flushed_ = transport::Clock::now();
+  if (keep_) keep_(std::move(checkpoint), base::saved(*this));
+}
+
+void Recorder::restore(std::string_view state) { base::restore(*this, state); }
 
 // Of triangles the middle's place and the area, where segments have x1 and length.
 void Recorder::describe_profiles() {
@@ -130,7 +149,8 @@ void Recorder::complete_rows() {
 
 void Recorder::write_row(std::uint64_t window, const Pending& row) {
   if (!ledger_) {
-    ledger_.emplace(*row.impactor, *row.structure, plan_.impactor_steps == 1, masses_, levels_);
+    first_ = {*row.impactor, *row.structure};
+    make_ledger();
   }
   const ledger::Balance balance = ledger_->close(*row.impactor, *row.structure, row.handed_over);
   const double time = time_of(window);

@@ -5,6 +5,8 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "ledger/guards.hpp"
@@ -47,6 +49,9 @@ class Recorder final : public StepObserver {
     const wire::Surface& surface;
     ledger::Masses masses = {};
     ledger::Levels levels = {};
+    /// Given a checkpoint and this recorder's own state at it, with everything before it in the file. Empty: none is
+    /// kept.
+    std::function<void(Checkpoint, std::string)> keep = {};
   };
   /// `tick` is called when the run has a moment, with the windows seen so far. References must outlive the recorder.
   Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
@@ -55,12 +60,36 @@ class Recorder final : public StepObserver {
   void forces(const wire::Forces& forces) override;
   void report(wire::Role side, const wire::Report& report) override;
   void snapshot(wire::Role side, wire::Snapshot snapshot) override;
+  void checkpoint(Checkpoint checkpoint) override;
   void idle() override;
 
   void finish() override;
 
+  /// Goes on from the state that `keep` was given. std::range_error as base::Loading.
+  void restore(std::string_view state);
+
   /// So far.
   [[nodiscard]] Findings findings() const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("snapshots", snapshots_);
+    archive("load", load_);
+    archive("sums", sums_);
+    archive("first reports", first_);
+    if constexpr (Archive::loads) {
+      if (first_) make_ledger();
+    }
+    if (ledger_) archive("ledger", *ledger_);
+    serialize_pending(archive);
+    archive("time of the last row", row_time_);
+    archive("transmitted then", row_transmitted_);
+    archive("window of the last profile", profile_window_);
+    archive("impulse then", profile_mark_);
+    archive("unexplained", unexplained_);
+    archive("deflections", deflections_);
+    archive("findings", findings_);
+  }
 
  private:
   /// What a row waits for.
@@ -69,7 +98,33 @@ class Recorder final : public StepObserver {
     double transmitted = 0.0;
     std::optional<wire::Report> impactor;
     std::optional<wire::Report> structure;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("handed over", handed_over);
+      archive("transmitted", transmitted);
+      archive("impactor", impactor);
+      archive("structure", structure);
+    }
   };
+  /// What the ledger counts from.
+  struct FirstReports {
+    wire::Report impactor, structure;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive("impactor", impactor);
+      archive("structure", structure);
+    }
+  };
+  template <class Archive>
+  void serialize_pending(Archive& archive) {
+    std::vector<std::uint64_t> windows;
+    for (const auto& [window, row] : pending_) windows.push_back(window);
+    archive("rows that wait", windows);
+    for (const std::uint64_t window : windows) archive("row", pending_[window]);
+  }
+  void make_ledger();
   [[nodiscard]] double time_of(std::uint64_t window) const { return static_cast<double>(window) * plan_.window; }
   void complete_rows();
   void write_row(std::uint64_t window, const Pending& row);
@@ -87,9 +142,11 @@ class Recorder final : public StepObserver {
   ledger::Masses masses_;
   ledger::Levels levels_;
   std::function<void(std::uint64_t)> tick_;
+  std::function<void(Checkpoint, std::string)> keep_;
   ledger::LoadHistory load_;
   ledger::ImpulseSums sums_;
-  std::optional<ledger::Ledger> ledger_;
+  std::optional<FirstReports> first_;
+  std::optional<ledger::Ledger> ledger_;  // made of them
   std::map<std::uint64_t, Pending> pending_;
   double row_time_ = 0.0;         // of the last row
   double row_transmitted_ = 0.0;  // at the last row

@@ -8,7 +8,11 @@
 #include "orchestrator/memory.hpp"
 #include "orchestrator/participants.hpp"
 #include "orchestrator/preparation.hpp"
+#include "orchestrator/resume.hpp"
+#include "orchestrator/save_schedule.hpp"
+#include "orchestrator/saving.hpp"
 #include "process/interrupt.hpp"
+#include "results/checkpoints.hpp"
 #include "results/run_directory.hpp"
 
 namespace grainstep::orchestrator {
@@ -53,12 +57,23 @@ bool on_one_host(const RunOptions& options, const scene::Scene& scene) {
   return !is_external(wire::IMPACTOR, scene, options) && !is_external(wire::STRUCTURE, scene, options);
 }
 
-Ending run_prepared(const RunOptions& options, const Preparation& preparation, const results::RunDirectory& directory) {
+/// Before they compute there is nothing to save.
+bool can_be_saved(Hub& hub) { return hub.impactor().under_way && hub.structure().under_way && Saving(hub).possible(); }
+
+Ending run_prepared(const RunOptions& options, const Preparation& preparation, const results::RunDirectory& directory,
+                    const Resume* resume) {
   process::Interrupt interrupt;  // before the first thread
   EventLoop loop;
-  loop.add(interrupt.descriptor(), [&interrupt] {
+  SaveSchedule schedule(options.checkpoint_every_s);
+  Hub* talking = nullptr;
+  loop.add(interrupt.descriptor(), [&] {
+    const bool can = talking != nullptr && can_be_saved(*talking);
     if (interrupt.raised()) {
-      throw Interrupted();
+      if (!can) throw Interrupted();
+      schedule.end_after_next();
+    } else if (interrupt.asked()) {
+      if (can) schedule.save_now();
+      if (!can) std::fprintf(stderr, "grainstep: SIGUSR1: no checkpoint: nothing to save yet, or a side that cannot\n");
     }
   });
   Participants participants(preparation.scene, options, preparation.threads);
@@ -68,6 +83,7 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
     supervision.watch({.impactor = {hub.impactor().introduced, hub.impactor().finished},
                        .structure = {hub.structure().introduced, hub.structure().finished}});
   });
+  talking = &hub;
   participants.start(supervision, directory.logs());
   Ending ending =
       conduct(hub, {.preparation = preparation,
@@ -76,6 +92,10 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
                     .path = path_of(options),
                     .one_host = on_one_host(options, preparation.scene),
                     .progress = Progress::style_for(stdout, options.quiet),
+                    .ranks = options.ranks,
+                    .resume = resume,
+                    .inexact = options.inexact,
+                    .schedule = &schedule,
                     .account_of = [&supervision](const std::string& peer) { return supervision.account_of(peer); }});
   supervision.end_all(ending.code == ExitCode::done ? patience_at_the_end : patience_after_a_failure);
   return ending;
@@ -83,10 +103,10 @@ Ending run_prepared(const RunOptions& options, const Preparation& preparation, c
 
 /// What nobody foresaw is the end of this run like every other one. Where nothing was computed yet and a user can mend
 /// it (a program that is not there), it is refused as before the run.
-Ending run_to_its_end(const RunOptions& options, const Preparation& preparation,
-                      const results::RunDirectory& directory) {
+Ending run_to_its_end(const RunOptions& options, const Preparation& preparation, const results::RunDirectory& directory,
+                      const Resume* resume) {
   try {
-    return run_prepared(options, preparation, directory);
+    return run_prepared(options, preparation, directory, resume);
   } catch (const InputError&) {
     throw;
   } catch (...) {
@@ -100,21 +120,47 @@ Ending run_to_its_end(const RunOptions& options, const Preparation& preparation,
   }
 }
 
+/// Says why, and how it can go on.
+int exit_with(const Ending& ending, const results::RunDirectory& directory) {
+  if (ending.code == ExitCode::done) return 0;
+  std::fprintf(stderr, "grainstep: %s\n", ending.reason.c_str());
+  const std::vector<std::uint64_t> saved = results::Checkpoints(directory.checkpoints()).windows();
+  if (!saved.empty()) {
+    std::fprintf(stderr, "grainstep resume %s goes on from window %llu\n", directory.path().c_str(),
+                 static_cast<unsigned long long>(saved.back()));
+  }
+  return static_cast<int>(ending.code);
+}
+
+/// A scene that can be computed here. InputError otherwise.
+Preparation prepared(const RunOptions& options) {
+  Preparation preparation = prepare(options);
+  print_warnings(preparation);
+  require_memory(preparation, options.ranks, memory_of_machine());
+  return preparation;
+}
+
+int resume_run(RunOptions options) {
+  const results::RunDirectory directory(options.out);
+  if (!directory.holds_a_run()) throw InputError(directory.path().string() + ": holds no run to go on with");
+  const results::DirectoryLock lock = directory.prepare(results::Existing::go_on);
+  const Resume resume = load_resume(directory, options.from);
+  options.scene.scene = directory.scene();
+  const Preparation preparation = prepared(options);
+  announce(options, preparation, directory);
+  return exit_with(run_to_its_end(options, preparation, directory, &resume), directory);
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
-  const Preparation preparation = prepare(options);
-  print_warnings(preparation);
-  require_memory(preparation, options.ranks, memory_of_machine());
+  if (options.resume) return resume_run(options);
+  const Preparation preparation = prepared(options);
   const results::RunDirectory directory = directory_of(options);
   const results::DirectoryLock lock =
       directory.prepare(options.force ? results::Existing::replace : results::Existing::refuse);
   announce(options, preparation, directory);
-  const Ending ending = run_to_its_end(options, preparation, directory);
-  if (ending.code != ExitCode::done) {
-    std::fprintf(stderr, "grainstep: %s\n", ending.reason.c_str());
-  }
-  return static_cast<int>(ending.code);
+  return exit_with(run_to_its_end(options, preparation, directory, nullptr), directory);
 }
 
 }  // namespace grainstep::orchestrator

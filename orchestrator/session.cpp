@@ -8,6 +8,7 @@
 #include "participant/data_path.hpp"
 #include "participant/direct_path.hpp"
 #include "scene/groups.hpp"
+#include "wire/state_parts.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -75,8 +76,18 @@ wire::Setup Session::setup() const {
   return out;
 }
 
-void Session::make_ready(Peer& peer, const wire::Setup& setup) {
+/// With the state to go on from, if there is one.
+void Session::send_setup(Peer& peer, wire::Setup& setup) {
+  if (task_.resume == nullptr) return hub_.send(peer, setup);
+  const std::string& state = peer.role == wire::IMPACTOR ? task_.resume->impactor : task_.resume->structure;
+  setup.mutable_restore()->set_window(task_.resume->window);
+  setup.mutable_restore()->set_chunks(wire::state_parts(state.size()));
   hub_.send(peer, setup);
+  wire::send_state(peer.messages, task_.resume->window, state);
+}
+
+void Session::make_ready(Peer& peer, wire::Setup& setup) {
+  send_setup(peer, setup);
   bool ready = false;
   const auto handler = [&](Peer& from, const wire::Frame& frame) {
     if (&from != &peer) {
@@ -157,9 +168,12 @@ void Session::choose_path(wire::Start& start) {
 void Session::run(const StepPlan& plan, StepObserver& observer) {
   wire::Start start = plan.start();
   choose_path(start);
+  if (task_.resume != nullptr) start.set_first_window(task_.resume->window + 1);
   hub_.send(hub_.structure(), start);
   hub_.send(hub_.impactor(), start);
   steps_.emplace(hub_, observer, start, deadlines_.step_s, listener_.get());
+  if (task_.resume != nullptr) steps_->go_on_from(task_.resume->surface);
+  steps_->save_when(task_.save_when);
   steps_->run();
   observer.finish();
   stop_sides("complete");

@@ -33,7 +33,9 @@ struct Task {
   double end = 0.0;      ///< s
   bool preview = false;  ///< nothing will be started: only what the sides say before is wanted
   Path path = Path::hub;
-  bool one_host = true;  ///< as far as anybody knows
+  bool one_host = true;                  ///< as far as anybody knows
+  const Checkpoint* resume = nullptr;    ///< what to go on from; the start
+  std::function<bool()> save_when = {};  ///< LockStep::save_when()
 };
 
 /// Order of calls: introduce, prepare, run (of a preview: introduce, ask, end); and at any time after construction,
@@ -67,7 +69,8 @@ class Session {
  private:
   [[nodiscard]] Demands demands_of(const Peer& peer) const;
   wire::Setup setup() const;
-  void make_ready(Peer& peer, const wire::Setup& setup);
+  void make_ready(Peer& peer, wire::Setup& setup);
+  void send_setup(Peer& peer, wire::Setup& setup);
   void stop_sides(const std::string& reason);
   void tell_to_stop(const std::string& reason);
   [[nodiscard]] bool finished() { return hub_.impactor().finished && hub_.structure().finished; }

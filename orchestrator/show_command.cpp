@@ -9,6 +9,7 @@
 #include "orchestrator/progress.hpp"
 #include "orchestrator/run_facts.hpp"
 #include "orchestrator/summary.hpp"
+#include "results/checkpoints.hpp"
 #include "results/run_directory.hpp"
 
 namespace grainstep::orchestrator {
@@ -46,6 +47,14 @@ void print_progress(const Json& facts) {
     std::printf("last written %s ago%s\n", duration_text(facts["seconds_since_written"].get<double>()).c_str(),
                 facts["status"] == "killed" ? "" : "; a run that is alive writes about every second once it steps");
   }
+}
+
+void print_checkpoints(const results::RunDirectory& directory) {
+  const std::vector<std::uint64_t> windows = results::Checkpoints(directory.checkpoints()).windows();
+  if (windows.empty()) return;
+  std::printf("checkpoints of windows");
+  for (const std::uint64_t window : windows) std::printf(" %llu", static_cast<unsigned long long>(window));
+  std::printf(": grainstep resume %s goes on from the latest\n", directory.path().c_str());
 }
 
 /// Runs below `root`, as far down as studies put them.
@@ -99,6 +108,7 @@ void show(const ShowOptions& options) {
   } else {
     print_progress(facts);
   }
+  if (!options.json && facts["status"] != "done") print_checkpoints(directory);
 }
 
 }  // namespace grainstep::orchestrator

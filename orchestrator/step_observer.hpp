@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grainstep/wire.pb.h"
+#include "orchestrator/checkpoint.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -17,6 +18,9 @@ class StepObserver {
   virtual void forces(const wire::Forces& forces) = 0;
   virtual void report(wire::Role side, const wire::Report& report) = 0;
   virtual void snapshot(wire::Role side, wire::Snapshot snapshot) = 0;
+
+  /// Both states of a window, of which and of all before it everything else has been told, and nothing of later ones.
+  virtual void checkpoint(Checkpoint /*checkpoint*/) {}
 
   /// Now and then, when messages have been dealt with: time to show progress, to write.
   virtual void idle() = 0;

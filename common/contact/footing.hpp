@@ -29,6 +29,11 @@ class Footing {
  public:
   void clear() { shares_.clear(); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("shares of chords", shares_);
+  }
+
   [[nodiscard]] static Foot at_point(const surface::ClosestPoint& closest) { return {.at = closest}; }
 
   /// `candidates`: at least the segments within `radius` of the centre. Valid until clear().

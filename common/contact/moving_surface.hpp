@@ -1,6 +1,7 @@
 /// @file The surface between two exchanges: it moves linearly from where it was to where it is told to be.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "grainstep/wire.pb.h"
@@ -33,6 +34,19 @@ class MovingSurface {
   /// Largest distance (m) of a node, now and at the window's end, from where remember() was last called.
   [[nodiscard]] double wandered() const;
   void remember();
+
+  /// What moves, of a surface of the same topology.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    std::vector<surface::Vec2> now(now_.nodes().begin(), now_.nodes().end());
+    archive.fixed("now", now);
+    archive.fixed("from", from_);
+    archive.fixed("to", to_);
+    archive.fixed("velocity", velocity_);
+    archive.fixed("remembered", remembered_);
+    archive("fastest", fastest_);
+    if constexpr (Archive::loads) std::copy(now.begin(), now.end(), now_.nodes().begin());
+  }
 
  private:
   void note_fastest();

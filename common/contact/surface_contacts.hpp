@@ -76,6 +76,20 @@ class SurfaceContacts {
   /// Largest overlap over the diameter since the last call.
   [[nodiscard]] double take_largest_overlap() { return std::exchange(largest_overlap_, 0.0); }
 
+  /// What a step leaves for the next one. Springs belong to the particles.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("candidates", candidates_);
+    archive("segments near them", near_);
+    archive("contacts", contacts_);
+    archive("feet", footing_);
+    archive("ledger", ledger_);
+    archive("particles' side", particle_side_);
+    archive("stored in normal springs", stored_normal_);
+    archive("stored in tangential springs", stored_tangential_);
+    archive("largest overlap", largest_overlap_);
+  }
+
  private:
   struct Candidate {
     int particle;

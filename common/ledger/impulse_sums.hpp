@@ -31,6 +31,11 @@ class ImpulseSums {
 
   [[nodiscard]] const HandedOver& handed_over() const { return sums_; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("sums of impulses", sums_);
+  }
+
  private:
   std::size_t dimension_;
   HandedOver sums_;

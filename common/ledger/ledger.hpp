@@ -66,6 +66,13 @@ class Ledger {
   [[nodiscard]] Balance close(const wire::Report& impactor, const wire::Report& structure,
                               const HandedOver& handed_over);
 
+  /// What rows have left, of a ledger that was made of the same reports.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("supplied", supplied_);
+    archive("reference of momentum", momentum_reference_);
+  }
+
  private:
   [[nodiscard]] Closure side(const wire::Momentum& now, const wire::Momentum& start, wire::Ledger level) const;
   [[nodiscard]] double interface_excess(const Balance& balance, const HandedOver& handed_over) const;

@@ -39,6 +39,18 @@ class LoadHistory {
 
   [[nodiscard]] const SurfaceLoad& surface() const { return surface_; }
 
+  /// What windows have left; the watched instants are those of whoever reads it back.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("window", window_);
+    archive("time", time_);
+    archive("transmitted", transmitted_);
+    archive("of the loaded face", face_total_);
+    archive("of the nodes", total_);
+    archive("latest", latest_);
+    archive("watched", watched_);
+  }
+
  private:
   [[nodiscard]] double still_to_come() const;
 

@@ -9,6 +9,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "grainstep/wire.pb.h"
 
@@ -42,6 +45,12 @@ class StructureBackend {
 
   /// Everything the other side need not wait for: internal forces at t(n+1), stability, guards.
   virtual void complete() = 0;
+
+  /// With the capability "state" only: all that decides what follows, after complete(n). A new backend that was given
+  /// it by restore(), after prepare() and start(), goes on with advance(n+1), bit for bit. restore() throws
+  /// std::range_error for bytes that are no state of this model.
+  [[nodiscard]] virtual std::string save();
+  virtual void restore(std::string_view state);
 };
 
 /// The conversation as an impactor sees it while it runs.
@@ -59,6 +68,13 @@ class ImpactorLink {
   virtual void send(const wire::Forces& forces) = 0;
   virtual void send(wire::Report& report) = 0;  ///< the link fills in Timing.wait
   virtual void send(const wire::Snapshot& snapshot) = 0;
+
+  /// With the capability "state" only. Whether the state at t(n) is wanted, all of it is done for that: asked once,
+  /// after report and snapshot of window n; then send_state() is next. A run that continues was given a state() and
+  /// begins with window n+1, bit for bit.
+  [[nodiscard]] virtual bool wants_state(std::uint64_t /*window*/) { return false; }
+  virtual void send_state(std::string_view /*state*/) {}
+  [[nodiscard]] virtual std::optional<std::string_view> state() const { return std::nullopt; }
 };
 
 class ImpactorBackend {

@@ -2,12 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/processor_time.hpp"
 #include "participant/check_start.hpp"
 #include "participant/check_surface.hpp"
 #include "participant/data_path.hpp"
+#include "wire/state_parts.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -28,6 +31,9 @@ class Stopped {};
 
 constexpr auto between_looks = std::chrono::milliseconds(2);  // at the orchestrator, while data come
 
+constexpr const char* state_capability = "state";
+constexpr std::size_t largest_state = std::size_t{1} << 40U;  // bytes; the orchestrator has it in a file
+
 }  // namespace
 
 Conversation::Conversation(transport::Channel& channel, const ServeOptions& options)
@@ -40,6 +46,7 @@ bool Conversation::introduce(wire::Hello hello, wire::Role role, wire::Setup& se
   hello.set_role(role);
   role_ = role;
   offer_data_paths(hello);
+  can_save_ = std::ranges::count(hello.capabilities(), state_capability) > 0;
   hello.set_process(static_cast<std::uint64_t>(::getpid()));
   messages_.send(hello);
   const wire::Frame* frame = next("Setup", options_.setup_deadline_s);
@@ -59,7 +66,55 @@ bool Conversation::introduce(wire::Hello hello, wire::Role role, wire::Setup& se
   if (role == wire::IMPACTOR) {
     if (const auto found = problem_of_surface(setup)) refuse("Setup.impactor.surface" + *found);
   }
+  return !setup.has_restore() || take_state(setup.restore());
+}
+
+bool Conversation::take_state(const wire::Restore& restore) {
+  if (!can_save_) refuse("Setup is that of a run that continues, which this participant cannot");
+  wire::StateParts parts(messages_.peer(), restore.window(), largest_state);
+  wire::State part;
+  while (parts.count() < restore.chunks()) {
+    const wire::Frame* frame = next("State", options_.setup_deadline_s);
+    if (frame == nullptr) return false;
+    messages_.take(*frame, part, restore.window());
+    parts.add(part);
+  }
+  restored_ = parts.take();
+  restored_window_ = restore.window();
   return true;
+}
+
+void Conversation::send_state(std::uint64_t window, std::string_view state) {
+  if (stopped_) return;
+  wire::send_state(messages_, window, state);
+  wire::Saved saved;
+  saved.set_window(window);
+  saved.set_chunks(wire::state_parts(state.size()));
+  messages_.send(saved);
+}
+
+void Conversation::note_save(std::uint64_t window) {
+  if (!can_save_) {
+    refuse("Forces of window " + std::to_string(window) + " ask for a state, which this participant cannot give");
+  }
+  if (window < windows_) save_ = window;
+}
+
+bool Conversation::take_aside(const wire::Frame& frame) {
+  if (frame.kind != wire::Envelope::kSave || role_ != wire::IMPACTOR || !can_save_) return false;
+  save_wanted_ = true;
+  return true;
+}
+
+void Conversation::send_forces(const wire::Forces& forces) {
+  if (!save_wanted_ || forces.window() >= windows_) {
+    return send_data([&](wire::MessageChannel& data) { data.send(forces); });
+  }
+  save_wanted_ = false;
+  save_ = forces.window();
+  wire::Forces marked = forces;
+  marked.set_save(true);
+  send_data([&](wire::MessageChannel& data) { data.send(marked); });
 }
 
 void Conversation::ready(wire::Ready ready, const wire::Setup& setup) {
@@ -75,6 +130,12 @@ bool Conversation::wait_for_start(wire::Start& start) {
   if (preview_) messages_.refuse("Stop after the Ready of a preview, for which no model was built", *frame);
   messages_.take(*frame, start);
   if (const auto found = start_problem(start)) refuse(*found);
+  const std::uint64_t first = restored_ ? restored_window_ + 1 : 0;
+  if (start.first_window() != first) {
+    refuse("Start begins at window " + std::to_string(start.first_window()) + ", expected " + std::to_string(first) +
+           (restored_ ? ", the one after the state's" : ": no state was given to go on from"));
+  }
+  windows_ = start.windows();
   try {
     open_data_path(start);
   } catch (const Stopped&) {
@@ -98,10 +159,11 @@ const wire::Frame* Conversation::next(const std::string& expected, double deadli
   if (stopped_) {
     return nullptr;
   }
-  const wire::Frame* frame = messages_.receive(transport::in(std::chrono::duration<double>(deadline_s)));
-  if (frame == nullptr) {
-    refuse("expected " + expected + ", heard nothing for " + seconds_text(deadline_s));
-  }
+  const wire::Frame* frame = nullptr;
+  do {
+    frame = messages_.receive(transport::in(std::chrono::duration<double>(deadline_s)));
+    if (frame == nullptr) refuse("expected " + expected + ", heard nothing for " + seconds_text(deadline_s));
+  } while (take_aside(*frame));
   if (frame->kind == wire::Envelope::kStop) {
     stopped_ = true;
     return nullptr;
@@ -144,7 +206,7 @@ void Conversation::open_data_path(const wire::Start& start) {
 void Conversation::look_for_stop() {
   looked_ = transport::Clock::now();
   const wire::Frame* frame = messages_.receive(looked_);
-  if (frame == nullptr) return;
+  if (frame == nullptr || take_aside(*frame)) return;
   if (frame->kind != wire::Envelope::kStop) messages_.refuse("Stop: data do not come from here", *frame);
   stopped_ = true;
   throw Stopped();

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <type_traits>
 
 #include "participant/serve.hpp"
@@ -26,6 +27,12 @@ class Conversation {
   /// Waits for Start and begins the clock; false: stopped.
   [[nodiscard]] bool wait_for_start(wire::Start& start);
 
+  /// Of a run that continues: what came with the Setup.
+  [[nodiscard]] const std::optional<std::string>& restored() const { return restored_; }
+  /// Whether the state at the end of this window is wanted: its Forces have said so.
+  [[nodiscard]] bool wants_state(std::uint64_t window) const { return save_ == window; }
+  void send_state(std::uint64_t window, std::string_view state);
+
   /// Waits for the other side's data of this window; false: stopped.
   template <wire::Body Message>
   [[nodiscard]] bool wait_for(Message& message, std::uint64_t window) {
@@ -34,13 +41,18 @@ class Conversation {
       return false;
     }
     data().take(*frame, message, window);
+    if constexpr (std::is_same_v<Message, wire::Forces>) {
+      if (message.save()) note_save(window);
+    }
     return true;
   }
 
   template <wire::Body Message>
   void send(const Message& message) {
     if (stopped_) return;
-    if constexpr (std::is_same_v<Message, wire::Forces> || std::is_same_v<Message, wire::Kinematics>) {
+    if constexpr (std::is_same_v<Message, wire::Forces>) {
+      send_forces(message);
+    } else if constexpr (std::is_same_v<Message, wire::Kinematics>) {
       send_data([&](wire::MessageChannel& data) { data.send(message); });
     } else {
       messages_.send(message);
@@ -70,6 +82,12 @@ class Conversation {
   [[nodiscard]] wire::MessageChannel& data();
   void send_data(const std::function<void(wire::MessageChannel&)>& send);
   void offer_data_paths(wire::Hello& hello);
+  /// A message that may come at any time and is no answer to anything: Save.
+  [[nodiscard]] bool take_aside(const wire::Frame& frame);
+  /// Those of the window whose state is to be saved say so to the other side.
+  void send_forces(const wire::Forces& forces);
+  [[nodiscard]] bool take_state(const wire::Restore& restore);
+  void note_save(std::uint64_t window);
   const wire::Frame* wait_for_data(const std::string& kind, std::uint64_t window);
   void fill_timing(wire::Timing& timing) const;
 
@@ -83,6 +101,12 @@ class Conversation {
   double processor_at_start_ = 0.0;
   transport::Clock::duration waited_{};
   std::uint64_t steps_ = 0;  // as last reported by the backend
+  std::optional<std::string> restored_;
+  std::uint64_t restored_window_ = 0;
+  bool can_save_ = false;
+  bool save_wanted_ = false;           ///< an impactor was asked for a state
+  std::optional<std::uint64_t> save_;  ///< the window whose state it is to be
+  std::uint64_t windows_ = 0;
   bool preview_ = false;
   bool stopped_ = false;
 };

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "participant/conversation.hpp"
 #include "participant/give_way.hpp"
@@ -30,6 +32,29 @@ void check_finite(const char* what, std::uint64_t window, const google::protobuf
   }
 }
 
+/// What a structure goes on from: what it is, and what it has told the impactor last.
+struct StructureState {
+  wire::Kinematics& next;
+  std::string backend;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("kinematics", next);
+    archive("backend", backend);
+  }
+};
+
+std::string saved(StructureBackend& backend, wire::Kinematics& next) {
+  StructureState state{next, backend.save()};
+  return base::saved(state);
+}
+
+void restore(StructureBackend& backend, wire::Kinematics& next, const std::string& bytes) {
+  StructureState state{next, {}};
+  base::restore(state, bytes);
+  backend.restore(state.backend);
+}
+
 void converse(Conversation& talk, StructureBackend& backend) {
   wire::Setup setup;
   wire::Start start;
@@ -46,6 +71,10 @@ void converse(Conversation& talk, StructureBackend& backend) {
 
   wire::Forces forces;
   wire::Kinematics next;
+  if (talk.restored()) {
+    restore(backend, next, *talk.restored());
+    talk.send(next);
+  }
   wire::Report report;
   wire::Snapshot snapshot;
   for (std::uint64_t window = start.first_window(); window <= start.windows(); ++window) {
@@ -74,6 +103,7 @@ void converse(Conversation& talk, StructureBackend& backend) {
       talk.send(snapshot);
     }
     backend.complete();
+    if (talk.wants_state(window)) talk.send_state(window, saved(backend, next));
   }
   talk.finish();
 }
@@ -98,11 +128,18 @@ class Link final : public ImpactorLink {
   void send(const wire::Forces& forces) override { talk_.send(forces); }
   void send(wire::Report& report) override { talk_.send_report(report); }
   void send(const wire::Snapshot& snapshot) override { talk_.send(snapshot); }
+  bool wants_state(std::uint64_t window) override {
+    window_ = window;
+    return talk_.wants_state(window);
+  }
+  void send_state(std::string_view state) override { talk_.send_state(window_, state); }
+  std::optional<std::string_view> state() const override { return talk_.restored(); }
 
  private:
   Conversation& talk_;
   const wire::Start& start_;
   int values_;
+  std::uint64_t window_ = 0;  ///< that was asked for
   wire::Kinematics kinematics_;
 };
 
@@ -161,12 +198,23 @@ int serve(transport::Channel& channel, Backend& backend, const ServeOptions& opt
     return end_badly(talk, options,
                      {wire::Error::INTERNAL, ExitCode::peer,
                       "the system gives no more memory; grainstep check estimates what a scene takes"});
+  } catch (const std::range_error& error) {  // of common/base/archive.hpp
+    return end_badly(talk, options,
+                     {wire::Error::BAD_INPUT, ExitCode::bad_input,
+                      std::string("the state to go on from is not one of this model: ") + error.what()});
   } catch (const std::exception& error) {
     return bad(wire::Error::INTERNAL, ExitCode::peer, error);
   }
 }
 
 }  // namespace
+
+std::string StructureBackend::save() {
+  throw std::logic_error("a structure that says it can save its state must override save()");
+}
+void StructureBackend::restore(std::string_view /*state*/) {
+  throw std::logic_error("a structure that says it can save its state must override restore()");
+}
 
 int serve_structure(transport::Channel& channel, StructureBackend& backend, const ServeOptions& options) {
   return serve(channel, backend, options);

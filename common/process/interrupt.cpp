@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace grainstep::process {
 namespace {
@@ -22,6 +23,7 @@ Interrupt::Interrupt() {
   sigemptyset(&watched);
   sigaddset(&watched, SIGINT);
   sigaddset(&watched, SIGTERM);
+  sigaddset(&watched, SIGUSR1);
   if (!is_ignored(SIGHUP)) {
     sigaddset(&watched, SIGHUP);
   }
@@ -39,13 +41,28 @@ Interrupt::~Interrupt() {
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-bool Interrupt::raised() {
+void Interrupt::look() {
   signalfd_siginfo info{};
-  if (!raised_ && ::read(descriptor_, &info, sizeof info) == sizeof info) {
+  while (!raised_ && ::read(descriptor_, &info, sizeof info) == sizeof info) {
+    if (info.ssi_signo == SIGUSR1) {
+      asked_ = true;
+      continue;
+    }
     raised_ = true;
-    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);  // the second one means it
+    sigset_t left = before_;
+    sigaddset(&left, SIGUSR1);
+    ::pthread_sigmask(SIG_SETMASK, &left, nullptr);  // the second one means it
   }
+}
+
+bool Interrupt::raised() {
+  look();
   return raised_;
+}
+
+bool Interrupt::asked() {
+  look();
+  return std::exchange(asked_, false);
 }
 
 }  // namespace grainstep::process

@@ -26,9 +26,14 @@ bool write_all(int fd, std::string_view contents) {
   return true;
 }
 
-}  // namespace
+enum class Durable { no, yes };
 
-void write_atomically(const std::filesystem::path& path, std::string_view contents) {
+bool sync_directory_of(const std::filesystem::path& path) {
+  const Descriptor directory(::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return directory.is_open() && ::fsync(directory.get()) == 0;
+}
+
+void write(const std::filesystem::path& path, std::string_view contents, Durable durable) {
   const std::filesystem::path beside = path.string() + ".part";
   const auto fail = [&] {
     const int reason = errno;
@@ -40,10 +45,22 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
     if (file.get() < 0 || !write_all(file.get(), contents)) {
       fail();
     }
+    if (durable == Durable::yes && ::fsync(file.get()) != 0) fail();
   }
   if (::rename(beside.c_str(), path.c_str()) != 0) {
     fail();
   }
+  if (durable == Durable::yes && !sync_directory_of(path)) fail();
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& path, std::string_view contents) {
+  write(path, contents, Durable::no);
+}
+
+void write_durably(const std::filesystem::path& path, std::string_view contents) {
+  write(path, contents, Durable::yes);
 }
 
 }  // namespace grainstep::results

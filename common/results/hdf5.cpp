@@ -205,6 +205,42 @@ void File::write(const std::string& dataset, std::span<const std::uint32_t> valu
   write_array(dataset, values.data(), values.size(), columns, H5T_STD_U32LE, meaning);
 }
 
+void File::shrink(const std::string& dataset, std::uint64_t rows) {
+  const Handle target = take(H5Dopen2(file_.get(), dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset);
+  std::array<hsize_t, 2> shape{};
+  {
+    const Handle space = take(H5Dget_space(target.get()), H5Sclose, dataset);
+    require(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr), dataset);
+  }
+  if (shape[0] < rows) {
+    fail(dataset + " has " + std::to_string(shape[0]) + " rows, expected " + std::to_string(rows) + " or more");
+  }
+  shape[0] = rows;
+  require(H5Dset_extent(target.get(), shape.data()), dataset);
+}
+
+void File::remove(const std::string& dataset) {
+  require(H5Ldelete(file_.get(), dataset.c_str(), H5P_DEFAULT), dataset);
+  for (std::string group = dataset.substr(0, dataset.rfind('/')); !group.empty();
+       group = group.substr(0, group.rfind('/'))) {
+    H5G_info_t info{};
+    require(H5Gget_info_by_name(file_.get(), group.c_str(), &info, H5P_DEFAULT), group);
+    if (info.nlinks > 0) return;
+    require(H5Ldelete(file_.get(), group.c_str(), H5P_DEFAULT), group);
+  }
+}
+
+std::vector<std::string> File::datasets() const {
+  std::vector<std::string> found;
+  const auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* into) -> herr_t {
+    if (info->type == H5O_TYPE_DATASET)
+      static_cast<std::vector<std::string>*>(into)->push_back(std::string("/") + name);
+    return 0;
+  };
+  require(H5Ovisit2(file_.get(), H5_INDEX_NAME, H5_ITER_INC, visit, &found, H5O_INFO_BASIC), "its datasets");
+  return found;
+}
+
 void File::write(const std::string& dataset, const std::string& text, const std::string& title) {
   const Handle type = take(H5Tcopy(H5T_C_S1), H5Tclose, dataset);
   require(H5Tset_size(type.get(), std::max<std::size_t>(text.size(), 1)), dataset);

@@ -57,7 +57,13 @@ class File {
   void write(const std::string& dataset, const std::string& text, const std::string& title);
   void attribute(const std::string& object, const std::string& name, double value);
 
+  /// Leaves the first rows of a dataset that append() has made.
+  void shrink(const std::string& dataset, std::uint64_t rows);
+  /// And the groups that it was the last in.
+  void remove(const std::string& dataset);
+
   [[nodiscard]] bool has(const std::string& dataset) const;
+  [[nodiscard]] std::vector<std::string> datasets() const;
   [[nodiscard]] std::vector<double> read_doubles(const std::string& dataset) const;
   [[nodiscard]] std::string read_text(const std::string& dataset) const;
 

@@ -59,8 +59,29 @@ ResultsFile::ResultsFile(std::filesystem::path path, const std::vector<Text>& te
   h5::File file = h5::File::create(visible);
   for (const Text& text : texts) {
     file.write(text.dataset, text.contents, text.title);
+    contents_[text.dataset] = 0;
   }
   file.close();
+}
+
+ResultsFile::ResultsFile(GoOn /*mode*/, std::filesystem::path path, const Contents& contents)
+    : file_(std::move(path)), contents_(contents) {
+  static_cast<void>(file_.open());
+  h5::File file = h5::File::open(file_.twin());
+  for (const std::string& dataset : file.datasets()) {
+    const auto kept = contents.find(dataset);
+    if (kept == contents.end()) {
+      file.remove(dataset);
+    } else if (kept->second > 0) {
+      file.shrink(dataset, kept->second);
+    }
+  }
+  for (const auto& [dataset, rows] : contents) {
+    if (!file.has(dataset)) throw OutputError(file_.visible().string() + ": " + dataset + " is missing");
+  }
+  file.close();
+  file_.exchange();
+  file_.abandon();  // the other one holds what was taken away
 }
 
 void ResultsFile::add(const std::vector<Entry>& row) {
@@ -68,6 +89,7 @@ void ResultsFile::add(const std::vector<Entry>& row) {
     Rows& rows = pending_.rows[entry.dataset];
     rows.meaning = entry.meaning;
     rows.values.push_back(entry.value);
+    ++contents_[entry.dataset];
   }
   pending_.bytes += row.size() * sizeof(double);
 }
@@ -77,11 +99,13 @@ void ResultsFile::add(const Line& line) {
   rows.meaning = line.meaning;
   rows.columns = line.values.size();
   rows.values.insert(rows.values.end(), line.values.begin(), line.values.end());
+  ++contents_[line.dataset];
   pending_.bytes += line.values.size() * sizeof(double);
 }
 
 void ResultsFile::add(Array array) {
   pending_.bytes += array.values.size() * sizeof(double) + array.indices.size() * sizeof(std::uint32_t);
+  contents_[array.dataset] = 0;
   pending_.arrays.push_back(std::move(array));
 }
 

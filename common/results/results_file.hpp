@@ -43,10 +43,21 @@ struct Text {
   std::string contents;
 };
 
+/// Names of all datasets, and how many rows each has; 0: it was written once.
+using Contents = std::map<std::string, std::uint64_t>;
+
 class ResultsFile {
  public:
   /// Creates the file with the texts in it. OutputError when it exists or cannot be written.
   ResultsFile(std::filesystem::path path, const std::vector<Text>& texts);
+
+  /// Goes on with a file that held this when everything was flushed: what came later is taken away. OutputError where
+  /// it holds less, or cannot be written.
+  struct GoOn {};
+  ResultsFile(GoOn mode, std::filesystem::path path, const Contents& contents);
+
+  /// Of what was added up to now.
+  [[nodiscard]] const Contents& contents() const { return contents_; }
 
   void add(const std::vector<Entry>& row);
   void add(const Line& line);
@@ -78,6 +89,7 @@ class ResultsFile {
   void write_bursts();
 
   TwinFile file_;
+  Contents contents_;
   Burst pending_;
   Burst before_;  // the last one written: visible, but not in the twin yet
 };

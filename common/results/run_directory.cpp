@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "results/atomic_file.hpp"
+#include "results/checkpoints.hpp"
 #include "results/twin_file.hpp"
 
 namespace grainstep::results {
@@ -30,10 +31,10 @@ bool is_snapshot(const std::string& file, const std::string& series) {
   return number.size() >= 4 && number.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Whether a run wrote this file into its paraview/ or logs/; people may keep theirs beside it.
+// Whether a run wrote this file into one of its folders; people may keep theirs beside it.
 bool is_a_runs_own(const std::string& file) {
   const std::string name = without_part(file);
-  return name == "impactor.log" || name == "structure.log" ||
+  return name == "impactor.log" || name == "structure.log" || Checkpoints::is_one(name) ||
          std::ranges::any_of(series_names, [&](const char* series) { return is_snapshot(name, series); });
 }
 
@@ -68,7 +69,7 @@ void RunDirectory::remove_run() const {
   for (const char* name : series_names) files.push_back(series(name));
   for (std::size_t i = 0, whole = files.size(); i < whole; ++i) files.emplace_back(files[i].string() + ".part");
   for (const char* left : TwinFile::leftovers) files.emplace_back(results().string() + left);
-  for (const fs::path& folder : {paraview(), logs()}) {
+  for (const fs::path& folder : {paraview(), logs(), checkpoints()}) {
     if (!error) {
       const std::vector<fs::path> own = own_files_in(folder, error);
       files.insert(files.end(), own.begin(), own.end());
@@ -94,7 +95,7 @@ void RunDirectory::make(const fs::path& folder) const {
 }
 
 void RunDirectory::require_own_folders() const {
-  for (const fs::path& folder : {paraview(), logs()}) {
+  for (const fs::path& folder : {paraview(), logs(), checkpoints()}) {
     std::error_code ignored;
     if (fs::is_symlink(folder, ignored)) {
       throw InputError(folder.string() +
@@ -131,7 +132,7 @@ DirectoryLock RunDirectory::prepare(Existing existing) const {
   require_own_folders();
   if (holds_a_run()) {
     if (refused) refuse();  // it came and went since we looked
-    remove_run();
+    if (existing == Existing::replace) remove_run();
   }
   require_writable();
   return entered;

@@ -10,7 +10,7 @@
 namespace grainstep::results {
 
 /// What to do with a run that is already there.
-enum class Existing { refuse, replace };
+enum class Existing { refuse, replace, go_on };
 
 /// The time series of snapshots that a run may have: NAME.pvd, with its files paraview/NAME_NNNN.vtp or .vtu.
 inline constexpr std::array series_names{"particles", "impactor", "structure"};
@@ -22,7 +22,7 @@ class RunDirectory {
 
   /// Makes it ready for a new run: exists, is writable, holds no older run, nobody works in it. Throws InputError that
   /// names what is in the way and what to do. `replace` removes the older run's own files and nothing else, and follows
-  /// no links. The run keeps the lock as long as it writes.
+  /// no links; `go_on` leaves them. The run keeps the lock as long as it writes.
   [[nodiscard]] DirectoryLock prepare(Existing existing) const;
 
   /// What a run leaves first, or last, is there.
@@ -39,6 +39,7 @@ class RunDirectory {
   [[nodiscard]] std::filesystem::path series(const std::string& name) const { return path_ / (name + ".pvd"); }
   [[nodiscard]] std::filesystem::path paraview() const { return path_ / "paraview"; }
   [[nodiscard]] std::filesystem::path logs() const { return path_ / "logs"; }
+  [[nodiscard]] std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
 
  private:
   [[noreturn]] void refuse() const;

@@ -17,6 +17,14 @@ class Snapshots {
   /// Snapshots of one side come in order of time (s). They are numbered from 0.
   void add(wire::Role side, double time, const wire::Snapshot& snapshot);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    for (Series* series : {&particles_, &impactor_, &structure_}) {
+      archive("collection", series->collection);
+      archive("count", series->count);
+    }
+  }
+
   [[nodiscard]] std::uint64_t count(wire::Role side) const { return series(side).count; }
 
  private:

@@ -164,6 +164,11 @@ void TimeSeries::add(double time, const std::string& file) {
   char number[32];
   std::snprintf(number, sizeof number, "%.17g", time);
   entries_ += "<DataSet timestep=\"" + std::string(number) + "\" part=\"0\" file=\"" + file + "\"/>\n";
+  write();
+}
+
+void TimeSeries::write() const {
+  if (entries_.empty()) return;
   write_atomically(path_, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n" +
                               entries_ + "</Collection>\n</VTKFile>\n");
 }

@@ -30,7 +30,16 @@ class TimeSeries {
   /// Adds `file`, a name relative to the collection, at `time` in s, and writes the collection anew.
   void add(double time, const std::string& file);
 
+  /// Writes the collection anew when it is read back.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("entries", entries_);
+    if constexpr (Archive::loads) write();
+  }
+
  private:
+  void write() const;  ///< nothing if there is nothing in it
+
   std::filesystem::path path_;
   std::string entries_;
 };

@@ -153,10 +153,10 @@ Frame Decoder::decode(std::span<const std::byte> frame) {
 std::optional<std::uint64_t> window_of(const Frame& frame) {
   using google::protobuf::internal::WireFormatLite;
   if (frame.kind != Envelope::kForces && frame.kind != Envelope::kKinematics && frame.kind != Envelope::kReport &&
-      frame.kind != Envelope::kSnapshot) {
+      frame.kind != Envelope::kSnapshot && frame.kind != Envelope::kState && frame.kind != Envelope::kSaved) {
     return std::nullopt;
   }
-  constexpr std::uint32_t window_tag = 1 << 3;  // field 1 of all four, a varint
+  constexpr std::uint32_t window_tag = 1 << 3;  // field 1 of all of them, a varint
   CodedInputStream in(octets(frame.body), static_cast<int>(frame.body.size()));
   while (const std::uint32_t tag = in.ReadTag()) {
     std::uint64_t window = 0;

@@ -24,6 +24,13 @@ class Cells {
   [[nodiscard]] std::int32_t slow() const { return slow_; }  ///< how many
   [[nodiscard]] float slack() const { return slack_; }       ///< m, round-off of places
 
+  /// What is asked for after sort(), and what the next order is followed from.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("slow grains", slow_);
+    archive("round-off of places", slack_);
+  }
+
   /// Calls use(i, ranges, count) for the slow grains of [first, last): half of the cells around, so that every pair is
   /// found once.
   template <typename Use>

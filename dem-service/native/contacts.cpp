@@ -1,6 +1,7 @@
 #include "dem-service/native/contacts.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace grainstep::dem::native {
 
@@ -64,6 +65,17 @@ void Contacts<D>::follow(base::Team& team, const Neighbours<D>& neighbours, cons
       if (block.kept_of[k] != nullptr) block.contacts.adopt(k, block.kept_of[k]->value);
     }
   });
+}
+
+template <int D>
+void Contacts<D>::take_lists(const Neighbours<D>& neighbours, const Grains<D>& grains) {
+  const std::int32_t now = neighbours.blocks().count();
+  if (now < 0 || static_cast<std::size_t>(now) > blocks_.size()) throw std::range_error("another number of blocks");
+  for (std::int32_t number = 0; number < now; ++number) {
+    PairContacts& contacts = blocks_[static_cast<std::size_t>(number)].contacts;
+    contacts.clear(grains.largest_radius());
+    contacts.set_pairs(neighbours.list(number).pairs());
+  }
 }
 
 template <int D>

@@ -23,6 +23,13 @@ class Contacts {
 
   [[nodiscard]] PairEnergy energy() const;
 
+  /// Read back once `neighbours` and `grains` have been.
+  template <class Archive>
+  void serialize(Archive& archive, const Neighbours<D>& neighbours, const Grains<D>& grains) {
+    if constexpr (Archive::loads) take_lists(neighbours, grains);
+    for (Block& block : blocks_) archive("contacts of a block", block.contacts);
+  }
+
   /// The pairs that touch, for tests.
   [[nodiscard]] std::vector<Pair> touching() const;
 
@@ -38,6 +45,7 @@ class Contacts {
     std::vector<const Kept*> kept_of;  ///< of each pair of the new list; nullptr: it did not touch
   };
 
+  void take_lists(const Neighbours<D>& neighbours, const Grains<D>& grains);
   void keep(Block& block, const Neighbours<D>& neighbours);
 
   std::vector<Block> blocks_;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string_view>
 #include <utility>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "dem-service/native/contacts.hpp"
 #include "dem-service/native/flight.hpp"
@@ -64,15 +67,14 @@ class Run {
         neighbours_(sweeps_, allowance_, inner_allowance_),
         block_size_(native::block_size(grains_.count())),
         contacts_(pair_law(law_), features_of<D>(model), grains_, {grains_.count(), block_size_}),
+        state_(link.state()),
         exchange_(&link, MovingSurface(setup.surface()).node_count()),
         driver_(model, start, {.dt = dt_, .margin = model.diameter}, MovingSurface(setup.surface()), exchange_) {}
 
   void run() {
     try {
-      rebuild(0);
-      forces(0);
       const std::uint64_t steps = start_.windows() * start_.impactor_steps();
-      for (std::uint64_t n = 1; n <= steps && !driver_.ended(); ++n) {
+      for (std::uint64_t n = begin() + 1; n <= steps && !driver_.ended(); ++n) {
         move(n);
         forces(n);
       }
@@ -82,7 +84,33 @@ class Run {
     exchange_.finish();
   }
 
+  /// All that decides a bit of what follows.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("flight", flight_);
+    archive("grains", grains_);
+    archive("neighbours", neighbours_);
+    contacts_.serialize(archive, neighbours_, grains_);
+    archive("driver", driver_);
+    archive("frame", frame_);
+    archive("ways", moved_);
+    archive("ways used", used_);
+    archive("front", front_slow_);
+    archive("built at", built_at_);
+  }
+
  private:
+  /// The step that is done when this returns: the start, or that at the end of which a state was saved.
+  std::uint64_t begin() {
+    if (!state_) {
+      rebuild(0);
+      forces(0);
+      return 0;
+    }
+    base::restore(*this, *state_);
+    return (start_.first_window() - 1) * start_.impactor_steps();
+  }
+
   [[nodiscard]] double time_of(std::uint64_t step) const { return static_cast<double>(step) * dt_; }
   [[nodiscard]] contact::ParticleArrays arrays() { return grains_.arrays(flight_.awake()); }
 
@@ -236,6 +264,7 @@ class Run {
     if (all) place_sleepers(flight_.awake(), grains_.count(), time_of(n));
     driver_.end_of_step(n, all ? grains_.arrays(grains_.count()) : arrays(), contacts_.energy());
     for (const auto& [i, speeds] : looked_at_) grains_.set_speeds(i, speeds);
+    if (driver_.state_is_wanted(n)) exchange_.send_state(base::saved(*this));
   }
 
   void show(std::uint64_t n) {
@@ -262,6 +291,7 @@ class Run {
   Neighbours<D> neighbours_;
   std::int32_t block_size_;
   Contacts<D> contacts_;
+  std::optional<std::string_view> state_;  ///< of a run that continues
   Exchange exchange_;
   StepDriver driver_;
 

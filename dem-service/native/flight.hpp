@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "dem-service/slug_layout.hpp"
@@ -24,6 +25,14 @@ class Flight {
   [[nodiscard]] std::int32_t awake() const { return awake_; }
   [[nodiscard]] bool all_awake() const { return awake_ == static_cast<std::int32_t>(start_.size()); }
   [[nodiscard]] const surface::Vec3& velocity() const { return velocity_; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("awake", awake_);
+    if constexpr (Archive::loads) {
+      if (awake_ < 0 || awake_ > static_cast<std::int32_t>(start_.size())) throw std::range_error("too many awake");
+    }
+  }
 
   /// How far behind the head's place at the start, as seen by who flies along, m.
   [[nodiscard]] double behind(const double* position, double time) const;

@@ -76,6 +76,22 @@ class Grains {
   [[nodiscard]] Speeds speeds(std::ptrdiff_t i) const;
   void set_speeds(std::ptrdiff_t i, const Speeds& speeds);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive.fixed("grains", states_);
+    archive.fixed("forces", forces_);
+    archive.fixed("places", places_);
+    archive("places remembered", remembered_);
+    archive.fixed("radii", radius_);
+    archive.fixed("masses", mass_);
+    archive.fixed("one over masses", per_mass_);
+    archive.fixed("one over moments of inertia", per_inertia_);
+    archive.fixed("radii in single precision", float_radius_);
+    archive.fixed("identities", identity_);
+    archive.fixed("springs", springs_);
+    archive("origin", origin_);
+  }
+
  private:
   struct alignas(D == 2 ? 64 : 32) State {
     double value[R::size];

@@ -23,9 +23,10 @@ void make_own(wire::Ready& ready, bool spheres) {
   ready.set_rank_memory(bytes_of_program);
 }
 
-void require_drivable(const wire::Start& start) {
-  if (start.first_window() != 0) {
-    throw InputError("grainstep-grains cannot continue a run: Start.first_window must be 0");
+void require_drivable(const wire::Start& start, const participant::ImpactorLink& link) {
+  if ((start.first_window() != 0) != link.state().has_value()) {
+    throw InputError("Start.first_window is " + std::to_string(start.first_window()) +
+                     ": a run goes on with a state, " + "and begins at 0 without one");
   }
   if (!(start.window() > 0.0) || start.impactor_steps() == 0) {
     throw InputError("Start: window and impactor_steps must be above 0");
@@ -38,7 +39,8 @@ class Impactor final : public participant::ImpactorBackend {
 
   [[nodiscard]] wire::Hello describe() const override {
     wire::Hello hello = participant::hello(wire::IMPACTOR, "grainstep-grains (native)", GRAINSTEP_VERSION, {2});
-    for (const char* word : {"slug", "plane_strain", "axisymmetric", "size_distribution", "tension_cutoff", "threads"})
+    for (const char* word :
+         {"slug", "plane_strain", "axisymmetric", "size_distribution", "tension_cutoff", "threads", "state"})
       hello.add_capabilities(word);
     return hello;
   }
@@ -64,7 +66,7 @@ class Impactor final : public participant::ImpactorBackend {
 
   void run(const wire::Start& start, participant::ImpactorLink& link) override {
     GS_ASSERT(engine_ != nullptr, "run() before prepare()");
-    require_drivable(start);
+    require_drivable(start, link);
     engine_->run(start, link);
   }
 

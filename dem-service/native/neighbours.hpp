@@ -43,6 +43,15 @@ class Neighbours {
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }
   [[nodiscard]] const PairList<D>& list(std::int32_t block) const { return lists_[static_cast<std::size_t>(block)]; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("blocks", blocks_);
+    archive("cells", cells_);
+    archive("reach", reach_);
+    archive("inner reach", inner_reach_);
+    archive("lists", lists_);
+  }
+
  private:
   void set_reach(base::Team& team, const Grains<D>& grains);
 

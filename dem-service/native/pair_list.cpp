@@ -1,5 +1,7 @@
 #include "dem-service/native/pair_list.hpp"
 
+#include <stdexcept>
+
 namespace grainstep::dem::native {
 
 template <int D>
@@ -67,6 +69,21 @@ void PairList<D>::look(const Sweeps& sweeps, const Grains<D>& grains, float slac
                                                        .radii = grains.mixed() ? grains.radii() : nullptr,
                                                        .slack = slack},
                                                       near_.data()));
+}
+
+template <int D>
+void PairList<D>::forget_room() {
+  pairs_.resize(static_cast<std::size_t>(count_) + lanes_at_once);
+  inner_.resize(inner_count_ + lanes_at_once);
+  inner_number_.resize(inner_count_ + lanes_at_once);
+}
+
+template <int D>
+void PairList<D>::require_whole() const {
+  const bool whole = count_ >= 0 && slow_count_ >= 0 && slow_count_ <= count_ &&
+                     pairs_.size() == static_cast<std::size_t>(count_) + lanes_at_once &&
+                     inner_.size() == inner_count_ + lanes_at_once && inner_number_.size() == inner_.size();
+  if (!whole) throw std::range_error("a list of pairs of another length");
 }
 
 template <int D>

@@ -18,6 +18,12 @@ namespace grainstep::dem::native {
 struct Reach {
   std::vector<float> of;        ///< m
   float equal_and_slow = 0.0F;  ///< m, of every slow grain where sizes are equal; else 0
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("reach", of);
+    archive("of equal and slow ones", equal_and_slow);
+  }
 };
 
 template <int D>
@@ -39,7 +45,25 @@ class PairList {
   /// Number of the pair (i, j) in the whole list; -1 for none. i is in the block.
   [[nodiscard]] std::int32_t find(std::int32_t i, std::int32_t j) const;
 
+  /// Both lists; what may touch now is looked for in every step.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    if constexpr (!Archive::loads) forget_room();
+    archive("first grain", first_);
+    archive("pairs of each", begin_of_grain_);
+    archive("pairs", pairs_);
+    archive("how many", count_);
+    archive("of slow grains", slow_count_);
+    archive("inner pairs", inner_);
+    archive("their numbers", inner_number_);
+    archive("how many", inner_count_);
+    if constexpr (Archive::loads) require_whole();
+  }
+
  private:
+  /// Loops write ahead of what they have found; that need not be kept.
+  void forget_room();
+  void require_whole() const;
   void add(const Sweeps& sweeps, const Grains<D>& grains, const Reach& reach, std::int32_t grain, const Range* ranges,
            int count);
 

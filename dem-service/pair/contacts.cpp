@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "base/instruction_set.hpp"
@@ -101,6 +102,15 @@ void PairContacts::adopt(std::size_t pair, const double* values) {
   for (int h = 0; h < layout_.values; ++h) now_.value[h][now_.size] = values[h];
   ++now_.size;
   now_.end(layout_.values);
+}
+
+void PairContacts::adopt_all(const std::vector<std::uint32_t>& touching, const std::vector<double>& history) {
+  const auto values = static_cast<std::size_t>(layout_.values);
+  if (history.size() != touching.size() * values) throw std::range_error("histories of other contacts");
+  for (std::size_t n = 0; n < touching.size(); ++n) {
+    if (touching[n] >= pairs_.size()) throw std::range_error("a contact of no pair");
+    adopt(touching[n], history.data() + n * values);
+  }
 }
 
 void PairContacts::evaluate(const PairArrays& particles, double grown) {

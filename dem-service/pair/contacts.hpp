@@ -66,6 +66,20 @@ class PairContacts {
   void evaluate(const PairArrays& particles, double grown, std::span<const std::uint32_t> near);
 
   [[nodiscard]] const PairEnergy& energy() const { return energy_; }
+
+  /// Those that touched in the last step, with their histories, and energies. Read back after clear() and set_pairs().
+  template <class Archive>
+  void serialize(Archive& archive) {
+    std::vector<std::uint32_t> touching(now_.pair.begin(), now_.pair.begin() + static_cast<std::ptrdiff_t>(now_.size));
+    archive("pairs that touch", touching);
+    std::vector<double> history;
+    for (std::size_t n = 0; n < now_.size; ++n) {
+      for (int h = 0; h < layout_.values; ++h) history.push_back(value(n, h));
+    }
+    archive("their histories", history);
+    archive("energies", energy_);
+    if constexpr (Archive::loads) adopt_all(touching, history);
+  }
   /// Of the last step.
   [[nodiscard]] OutsideForces& outside() { return outside_; }
   [[nodiscard]] int values_per_contact() const { return layout_.values; }
@@ -87,6 +101,7 @@ class PairContacts {
     void end(int values);
   };
 
+  void adopt_all(const std::vector<std::uint32_t>& touching, const std::vector<double>& history);
   template <int D, bool Mixed>
   void find_near(const PairArrays& particles);
   template <int D, bool Friction, bool Equal>

@@ -43,7 +43,6 @@ wire::Ready FoamImpactor::prepare(const wire::Setup& setup) {
 }
 
 void FoamImpactor::begin(const wire::Start& start) {
-  check_start(start);
   if (!(start.window() > 0.0) || start.impactor_steps() == 0)
     throw InputError("Start: window and impactor_steps must be above 0");
   window_length_ = start.window();

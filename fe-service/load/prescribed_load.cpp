@@ -90,7 +90,6 @@ void PrescribedLoad::take(const wire::Kinematics& surface) {
 }
 
 void PrescribedLoad::run(const wire::Start& start, participant::ImpactorLink& link) {
-  check_start(start);
   steps_ = start.impactor_steps();
   step_ = start.window() / steps_;
   wire::Forces forces;

@@ -51,6 +51,8 @@ class BoundedStructure final : public participant::StructureBackend {
   void report(wire::Report& report) override { inner_.report(report); }
   void snapshot(wire::Snapshot& snapshot) override { inner_.snapshot(snapshot); }
   void complete() override { inner_.complete(); }
+  [[nodiscard]] std::string save() override { return inner_.save(); }
+  void restore(std::string_view state) override { inner_.restore(state); }
 
  private:
   participant::StructureBackend& inner_;

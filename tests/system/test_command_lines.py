@@ -49,9 +49,9 @@ class CommandLines(unittest.TestCase):
                 self.assertNotEqual(wrong.stderr, "")
 
     def test_commands_and_options_that_are_none(self):
-        self.refused("grainstep", "frobnicate", text="unknown command 'frobnicate'; commands: run, check, show, study")
+        self.refused("grainstep", "frobnicate", text="unknown command 'frobnicate'; commands: run, resume, check, show, study")
         self.refused("grainstep", "chekc", text="unknown command 'chekc'; did you mean 'check'? Commands: run")
-        self.refused("grainstep", text="a command is missing; one of run, check, show, study")
+        self.refused("grainstep", text="a command is missing; one of run, resume, check, show, study")
         self.refused("grainstep", QUICK, text=f"a command is missing before '{QUICK}'")
         self.refused("grainstep", "--quiet", "run", QUICK, text="'--quiet' stands before the command 'run'; it belongs behind it")
         self.refused("grainstep", "--quiet", text="unknown option '--quiet'; a command comes first")

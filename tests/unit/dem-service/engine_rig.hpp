@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -98,7 +100,16 @@ class ScriptedLink final : public participant::ImpactorLink {
   void send(const wire::Forces& sent) override { forces.push_back(sent); }
   void send(wire::Report& sent) override { reports.push_back(sent); }
   void send(const wire::Snapshot& sent) override { snapshots.push_back(sent); }
+  bool wants_state(std::uint64_t window) override {
+    asked_of_ = window;
+    return save_at.contains(window);
+  }
+  void send_state(std::string_view state) override { states[asked_of_] = state; }
+  std::optional<std::string_view> state() const override { return resume_from; }
 
+  std::set<std::uint64_t> save_at;              ///< windows whose state is wanted
+  std::map<std::uint64_t, std::string> states;  ///< of these windows
+  std::optional<std::string> resume_from;
   std::uint64_t stop_before = ~std::uint64_t{0};  ///< the run is ended instead of a later window's surface
   std::vector<wire::Forces> forces;
   std::vector<wire::Report> reports;
@@ -108,6 +119,7 @@ class ScriptedLink final : public participant::ImpactorLink {
   wire::Surface initial_;
   wire::Start start_;
   Motion motion_;
+  std::uint64_t asked_of_ = 0;
   wire::Kinematics kinematics_;
 };
 

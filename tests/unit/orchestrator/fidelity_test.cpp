@@ -40,6 +40,14 @@ TEST(Fidelity, TakesFinishedRowsWithAutomaticSteps) {
   EXPECT_THROW(static_cast<void>(read_fidelities("series,error_deflection\na,1\n")), InputError);
 }
 
+TEST(Fidelity, OfTheNativeEngineOnlyTheReferenceCounts) {
+  const auto rows = read_fidelities(std::string(table) + "\"native, fine\",3,100,4,,,0.4,0.1,2,8\n" +
+                                    "\"native, finest\",1,500,15,,,0,0,0,900\n");
+  ASSERT_EQ(rows.size(), 5U);
+  EXPECT_EQ(rows.back().name, "native, finest");
+  EXPECT_EQ(cheapest_within(1.0, rows)->name, "fine");
+}
+
 TEST(Fidelity, ALuckySettingIsNoBetterThanFinerOnes) {
   const auto rows = read_fidelities(std::string(table) + "lucky,3,25,4,,,0.01,0.01,0.01,2\n");
   EXPECT_EQ(rows.back().name, "lucky");

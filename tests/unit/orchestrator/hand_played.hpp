@@ -32,10 +32,15 @@ class Witness final : public StepObserver {
     ++(side == wire::IMPACTOR ? particles_ : meshes_);
     EXPECT_GT(snapshot.position_size(), 0);
   }
+  void checkpoint(Checkpoint checkpoint) override {
+    checkpoints_.push_back(std::move(checkpoint));
+    order_ += "checkpoint ";
+  }
   void idle() override {}
   void finish() override { ++finished_; }
 
   std::vector<wire::Forces> forces_;
+  std::vector<Checkpoint> checkpoints_;
   std::vector<wire::Report> impactor_;
   std::vector<wire::Report> structure_;
   std::string order_;

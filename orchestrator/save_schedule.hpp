@@ -1,0 +1,38 @@
+/// @file When a run asks for checkpoints: every so many seconds, and once more before it is ended from outside.
+#pragma once
+
+#include <atomic>
+
+#include "transport/channel.hpp"
+
+namespace grainstep::orchestrator {
+
+class SaveSchedule {
+ public:
+  /// `every_s`: 0 for never, but at an end from outside.
+  explicit SaveSchedule(double every_s) : every_s_(every_s) {}
+
+  /// Asked now and then. Throws Interrupted once the last checkpoint is written, or took too long.
+  [[nodiscard]] bool due();
+
+  /// A checkpoint is in its file. From any thread.
+  void written() { ++written_; }
+
+  /// One is wanted now.
+  void save_now() { now_ = true; }
+
+  /// The run is to end, after one more checkpoint.
+  void end_after_next();
+
+ private:
+  double every_s_;
+  transport::Clock::time_point last_ = transport::Clock::now();
+  std::atomic<unsigned> written_ = 0;
+  bool now_ = false;
+  bool ending_ = false;
+  bool asked_ = false;         ///< for the last one
+  unsigned written_then_ = 0;  ///< when it was
+  transport::Deadline patience_{};
+};
+
+}  // namespace grainstep::orchestrator
