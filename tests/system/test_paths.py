@@ -48,13 +48,15 @@ class Paths(unittest.TestCase):
 
     def test_an_interrupted_run_ends_at_once(self):
         """The participants go on between themselves until they have looked at what the orchestrator says."""
-        with Run(*LONG) as run:
-            run.wait_for_rows()
-            os.kill(run.process.pid, signal.SIGINT)
-            run.end(AT_ONCE)
-            self.assertEqual(run.code, 130, run.stderr)
-            run.left_over()
-            self.assertEqual(run.summary()["status"], "interrupted")
+        for path in ("shared", "direct"):
+            with self.subTest(path), Run(*LONG, "--path", path) as run:
+                run.wait_for_rows()
+                os.kill(run.process.pid, signal.SIGINT)
+                run.end(AT_ONCE)
+                self.assertEqual(run.code, 130, run.stderr)
+                run.left_over()
+                self.assertEqual(run.summary()["status"], "interrupted")
+                self.assertEqual(run.summary()["path"], path)
 
 
 class Direct(unittest.TestCase):
@@ -66,15 +68,6 @@ class Direct(unittest.TestCase):
             self.assertEqual(run.code, 2, run.stderr)
             self.assertIn("--path direct: the structure (", run.stderr)
             self.assertIn("does not listen for the impactor", run.stderr)
-
-    def test_an_interrupted_run_ends_at_once_and_leaves_no_socket(self):
-        with Run(*LONG, "--path", "direct") as run:
-            run.wait_for_rows()
-            os.kill(run.process.pid, signal.SIGINT)
-            run.end(AT_ONCE)
-            self.assertEqual(run.code, 130, run.stderr)
-            run.left_over()
-            self.assertEqual(run.summary()["path"], "direct")
 
     def test_the_one_that_is_lost_is_named(self):
         for side in ("impactor", "structure"):
