@@ -20,6 +20,7 @@ class StepObserver {
   virtual void snapshot(wire::Role side, wire::Snapshot snapshot) = 0;
 
   /// Both states of a window, of which and of all before it everything else has been told, and nothing of later ones.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): who overrides it keeps it
   virtual void checkpoint(Checkpoint /*checkpoint*/) {}
 
   /// Now and then, when messages have been dealt with: time to show progress, to write.

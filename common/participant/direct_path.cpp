@@ -118,7 +118,7 @@ std::unique_ptr<DataPath> DirectDoor::open(WhileWaiting look) && {
 }
 
 std::unique_ptr<DataPath> connect_directly(const std::string& endpoint, const DirectOptions& options,
-                                           WhileWaiting look) {
+                                           const WhileWaiting& look) {
   const Deadline end = transport::in(std::chrono::duration<double>(options.connect_deadline_s));
   while (true) {
     try {

@@ -39,6 +39,6 @@ class DirectDoor {
 
 /// The impactor's end. InputError as above, PeerError where nobody answers.
 [[nodiscard]] std::unique_ptr<DataPath> connect_directly(const std::string& endpoint, const DirectOptions& options,
-                                                         WhileWaiting look);
+                                                         const WhileWaiting& look);
 
 }  // namespace grainstep::participant

@@ -30,6 +30,7 @@ TEST(Engine, SpeaksOncePerWindowInOrder) {
   for (std::size_t n = 0; n < link.forces.size(); ++n) EXPECT_EQ(link.forces[n].window(), n);
   const auto windows = [](const auto& messages) {
     std::vector<std::uint64_t> found;
+    found.reserve(messages.size());
     for (const auto& message : messages) found.push_back(message.window());
     return found;
   };

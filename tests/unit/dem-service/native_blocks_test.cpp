@@ -126,7 +126,8 @@ std::vector<double> forces_in_heap(std::int32_t size) {
   for (std::int32_t n = 0; n < count; ++n) {
     PlacedParticle& one = placed[static_cast<std::size_t>(n)];
     one.position[0] = 0.98 * model.diameter * (n % rows);
-    one.position[1] = 0.98 * model.diameter * (n / rows);
+    const std::int32_t row = n / rows;
+    one.position[1] = 0.98 * model.diameter * row;
     one.spin = static_cast<double>(random() % 20001) - 10000.0;
   }
   base::Team team(1);
@@ -146,7 +147,7 @@ std::vector<double> forces_in_heap(std::int32_t size) {
     neighbours.rebuild(team, grains, {count, size}, fast);
     contacts.follow(team, neighbours, grains);
     contacts.evaluate(team, grains, neighbours, step);
-    found.assign(3 * count, 0.0);
+    found.assign(std::size_t{3} * count, 0.0);
     for (std::ptrdiff_t i = 0; i < count; ++i) {
       double* of_this = found.data() + std::ptrdiff_t{3} * arrays.identity[i];
       std::copy_n(arrays.force[i], 2, of_this);

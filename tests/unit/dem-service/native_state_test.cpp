@@ -56,8 +56,8 @@ Motion sinking(double per_window) {
   };
 }
 
-ScriptedLink run_on(const Case& of, wire::Start start, std::set<std::uint64_t> save_at, std::optional<std::string> from,
-                    int threads = 1) {
+ScriptedLink run_on(const Case& of, const wire::Start& start, std::set<std::uint64_t> save_at,
+                    std::optional<std::string> from, int threads = 1) {
   const SlugModel model = model_of(of.setup);
   ScriptedLink link(of.setup, start, sinking(start.window() * 1.0));
   link.save_at = std::move(save_at);

@@ -24,7 +24,7 @@ class DirectPath : public ::testing::Test {
  protected:
   /// A directory with a new pair of keys.
   std::filesystem::path keys(const char* name) const {
-    const std::filesystem::path directory = directory_.path() / name;
+    std::filesystem::path directory = directory_.path() / name;
     transport::make_keys(directory);
     return directory;
   }

@@ -84,7 +84,7 @@ class ServeStructure : public ::testing::Test {
   }
   static wire::Stop stop() { return {}; }
 
-  testing::ScriptedOrchestrator& orchestrator(ServeOptions options = {}) {
+  testing::ScriptedOrchestrator& orchestrator(const ServeOptions& options = {}) {
     conversation_ = std::make_unique<testing::ScriptedOrchestrator>(
         [this](transport::Channel& channel, const ServeOptions& serve_options) {
           return serve_structure(channel, backend, serve_options);
