@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -221,11 +222,18 @@ TEST_P(HandPlayedCopies, WaitForTheirTurn) {
   structure_.messages_->send(report(0));
   structure_.data().send(kinematics(2));
   structure_.messages_->send(report(2));
-  for (const std::uint64_t window : {0, 1, 2}) {
-    impactor_.data().send(forces(window));
-    if (window != 1) impactor_.messages_->send(report(window));
-  }
-  EXPECT_EQ(run(), "");
+  LockStep steps(hub_, witness_, start_, grainstep::testing::patience_s);
+  bool heard_nothing_more = false;
+  steps.save_when([&] {  // asked before the first wait: what the structure said has been looked at
+    if (std::exchange(heard_nothing_more, true)) return false;
+    for (const std::uint64_t window : {0, 1, 2}) {
+      impactor_.data().send(forces(window));
+      if (window != 1) impactor_.messages_->send(report(window));
+    }
+    return false;
+  });
+  for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) peer->hello.add_capabilities("state");
+  EXPECT_EQ(text_of_end([&steps] { steps.run(); }), "");
   EXPECT_EQ(witness_.order_, "forces report report forces forces report report ");
 }
 
