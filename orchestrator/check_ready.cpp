@@ -10,6 +10,7 @@
 #include "participant/check_surface.hpp"
 #include "participant/direct_path.hpp"
 #include "scene/suggest.hpp"
+#include "transport/endpoint.hpp"
 
 namespace grainstep::orchestrator {
 namespace {

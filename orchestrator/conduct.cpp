@@ -150,11 +150,11 @@ class Run {
     if (how_.schedule == nullptr) return {};
     return [this, about = text_of(about())](Checkpoint checkpoint, std::string recorder) {
       const std::uint64_t window = checkpoint.window;
-      const Resume resume{.checkpoint = std::move(checkpoint),
-                          .contents = file_->contents(),
-                          .recorder = std::move(recorder),
-                          .about = about};
-      results::Checkpoints(how_.directory.checkpoints()).write(window, parts_of(resume));
+      Resume resume{.checkpoint = std::move(checkpoint),
+                    .contents = file_->contents(),
+                    .recorder = std::move(recorder),
+                    .about = about};
+      results::Checkpoints(how_.directory.checkpoints()).write(window, parts_of(std::move(resume)));
       how_.schedule->written();
     };
   }

@@ -9,19 +9,15 @@
 #include "base/error.hpp"
 #include "ledger/message_numbers.hpp"
 #include "participant/schedule.hpp"
+#include "wire/finite.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
 
-void require_finite(const Peer& peer, const char* what, std::uint64_t window,
+void require_finite(const Peer& peer, const std::string& what, std::uint64_t window,
                     const google::protobuf::RepeatedField<double>& values) {
-  for (int i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) {
-      throw NumericalError(peer.name() + ": " + what + " of window " + std::to_string(window) + ": value " +
-                           std::to_string(i) + " is " + std::to_string(values[i]) +
-                           ". The computation has become unstable: try smaller steps.");
-    }
-  }
+  wire::require_finite(peer.name() + ": " + what, window, values,
+                       "The computation has become unstable: try smaller steps.");
 }
 
 }  // namespace
@@ -60,6 +56,7 @@ void LockStep::run() {
   const auto now = transport::Clock::now();
   hub_.impactor().heard = now;
   hub_.structure().heard = now;
+  if (!saving_.possible()) save_due_ = {};
   const auto until = [this] {
     observer_.idle();
     save_if_due();
@@ -167,7 +164,7 @@ void LockStep::take_what_came() {
 }
 
 void LockStep::save_if_due() {
-  if (!save_due_ || next_forces_ > start_.windows() || !saving_.possible()) return;
+  if (!save_due_ || next_forces_ > start_.windows()) return;
   if (save_due_()) saving_.ask();
 }
 

@@ -42,20 +42,22 @@ constexpr std::pair<const char*, bool> keys[] = {
 
 }  // namespace
 
-results::Parts parts_of(const Resume& resume) {
+results::Parts parts_of(Resume resume) {
   Own own{.window = resume.checkpoint.window,
-          .surface = resume.checkpoint.surface,
+          .surface = std::move(resume.checkpoint.surface),
           .datasets = {},
           .rows = {},
-          .recorder = resume.recorder};
+          .recorder = std::move(resume.recorder)};
   for (const auto& [dataset, rows] : resume.contents) {
     own.datasets.push_back(dataset);
     own.rows.push_back(rows);
   }
-  return {{"about", resume.about},
-          {"orchestrator", base::saved(own)},
-          {"impactor", resume.checkpoint.impactor},
-          {"structure", resume.checkpoint.structure}};
+  results::Parts parts;
+  parts["about"] = std::move(resume.about);
+  parts["orchestrator"] = base::saved(own);
+  parts["impactor"] = std::move(resume.checkpoint.impactor);
+  parts["structure"] = std::move(resume.checkpoint.structure);
+  return parts;
 }
 
 std::string text_of(const About& about) {
@@ -83,13 +85,13 @@ Resume load_resume(const results::RunDirectory& directory, std::optional<std::ui
         ": has no checkpoint. They are written every ten minutes, and when a run is ended by Ctrl-C or SIGTERM, where "
         "both participants can save their state (docs/user/running.md).");
   }
-  const results::Parts parts = checkpoints.read(from.value_or(there.back()));
+  results::Parts parts = checkpoints.read(from.value_or(there.back()));
   try {
     Own own;
     base::restore(own, parts.at("orchestrator"));
     Resume out{.checkpoint = {.window = own.window,
-                              .impactor = parts.at("impactor"),
-                              .structure = parts.at("structure"),
+                              .impactor = std::move(parts.at("impactor")),
+                              .structure = std::move(parts.at("structure")),
                               .surface = std::move(own.surface)},
                .contents = {},
                .recorder = std::move(own.recorder),

@@ -29,7 +29,7 @@ struct Resume {
   std::string about;           ///< JSON
 };
 
-[[nodiscard]] results::Parts parts_of(const Resume& resume);
+[[nodiscard]] results::Parts parts_of(Resume resume);
 
 /// What is to be kept of a run with a checkpoint.
 [[nodiscard]] std::string text_of(const About& about);

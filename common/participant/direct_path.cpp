@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "transport/zmq_channel.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -98,6 +99,8 @@ class DirectDataPath final : public DataPath {
 DirectDoor::DirectDoor(const DirectOptions& options)
     : options_(options),
       channel_(ZmqChannel::bind(options.listen, zmq_options(options, options.listen, wire::STRUCTURE))) {}
+
+DirectDoor::~DirectDoor() = default;
 
 std::string DirectDoor::endpoint() const {
   std::string endpoint = channel_->endpoint();

@@ -7,7 +7,10 @@
 #include <string>
 
 #include "participant/data_path.hpp"
-#include "transport/zmq_channel.hpp"
+
+namespace grainstep::transport {
+class ZmqChannel;
+}
 
 namespace grainstep::participant {
 
@@ -25,6 +28,9 @@ class DirectDoor {
  public:
   /// InputError for an endpoint that cannot be had, or that would carry data in the clear across a network.
   explicit DirectDoor(const DirectOptions& options);
+  DirectDoor(const DirectDoor&) = delete;
+  DirectDoor& operator=(const DirectDoor&) = delete;
+  ~DirectDoor();
 
   /// What Hello says. Where the structure listens on all interfaces, this names the host.
   [[nodiscard]] std::string endpoint() const;

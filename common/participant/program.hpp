@@ -3,8 +3,10 @@
 ///     int main(int argc, char** argv) {
 ///       participant::Program program("my-solver", "1.0", "A structure of my own");
 ///       if (const auto code = program.parse(argc, argv)) return *code;
-///       return program.run([&](transport::Channel& channel) { MyStructure mine;
-///         return serve_structure(channel, mine, program.serving()); });
+///       return program.run([&](transport::Channel& channel) {
+///         MyStructure mine;
+///         return serve_structure(channel, mine, program.serving());
+///       });
 ///     }
 #pragma once
 

@@ -1,6 +1,5 @@
 #include "participant/serve.hpp"
 
-#include <cmath>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "participant/conversation.hpp"
 #include "participant/give_way.hpp"
 #include "participant/schedule.hpp"
+#include "wire/finite.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -24,12 +24,7 @@ void check_length(const Conversation& talk, const char* what, int found, int exp
 
 /// The orchestrator forwards before it looks. What is no number would become a place, and then an index.
 void check_finite(const char* what, std::uint64_t window, const google::protobuf::RepeatedField<double>& values) {
-  for (int i = 0; i < values.size(); ++i) {
-    if (std::isfinite(values[i])) continue;
-    throw NumericalError(std::string(what) + " of window " + std::to_string(window) + ": value " + std::to_string(i) +
-                         " is " + std::to_string(values[i]) +
-                         ". The other side's computation has become unstable: try smaller steps.");
-  }
+  wire::require_finite(what, window, values, "The other side's computation has become unstable: try smaller steps.");
 }
 
 /// What a structure goes on from: what it is, and what it has told the impactor last.

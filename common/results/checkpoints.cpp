@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
@@ -55,9 +56,9 @@ fs::path Checkpoints::file(std::uint64_t window) const {
   return directory_ / (std::string(prefix) + std::to_string(window) + std::string(suffix));
 }
 
-void Checkpoints::write(std::uint64_t window, const Parts& parts) const {
+void Checkpoints::write(std::uint64_t window, Parts parts) const {
   File file;
-  for (const auto& [name, bytes] : parts) file.parts.push_back({name, bytes});
+  for (auto& [name, bytes] : parts) file.parts.push_back({name, std::move(bytes)});
   const std::string bytes = base::saved(file);
   std::error_code refused;
   fs::create_directory(directory_, refused);

@@ -20,7 +20,7 @@ class Checkpoints {
   explicit Checkpoints(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
   /// Of the end of window n. Then removes all but the two latest. OutputError; what was there before stays.
-  void write(std::uint64_t window, const Parts& parts) const;
+  void write(std::uint64_t window, Parts parts) const;
 
   /// Windows, in order.
   [[nodiscard]] std::vector<std::uint64_t> windows() const;

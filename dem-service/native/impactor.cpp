@@ -26,7 +26,7 @@ void make_own(wire::Ready& ready, bool spheres) {
 void require_drivable(const wire::Start& start, const participant::ImpactorLink& link) {
   if ((start.first_window() != 0) != link.state().has_value()) {
     throw InputError("Start.first_window is " + std::to_string(start.first_window()) +
-                     ": a run goes on with a state, " + "and begins at 0 without one");
+                     ": a run goes on with a state, and begins at 0 without one");
   }
   if (!(start.window() > 0.0) || start.impactor_steps() == 0) {
     throw InputError("Start: window and impactor_steps must be above 0");

@@ -140,6 +140,18 @@ TEST_F(Handshake, RefusesAnotherDimension) {
               HasSubstr("bad input: symmetry: the scene has 2 dimensions, but the impactor (ball) computes in 3"));
 }
 
+TEST_F(Handshake, RefusesAPlaceForDataThatIsNone) {
+  hello_structure_.add_capabilities("direct");
+  hello_structure_.set_data_endpoint("http://somewhere");
+  EXPECT_THAT(introduction(), HasSubstr("structure: Hello.data_endpoint: http://somewhere: "));
+}
+
+TEST_F(Handshake, RefusesAPlaceForDataWithoutEnd) {
+  hello_structure_.add_capabilities("direct");
+  hello_structure_.set_data_endpoint("tcp://" + std::string(5000, 'a') + ":1");
+  EXPECT_THAT(introduction(), HasSubstr("structure: Hello.data_endpoint: 5008 characters"));
+}
+
 TEST_F(Handshake, NamesTheKeyThatAsksForWhatAPeerCannot) {
   scene_.set_symmetry(scene::SYMMETRY_AXISYMMETRIC);
   EXPECT_THAT(introduction(), HasSubstr("bad input: symmetry: asks for 'axisymmetric', which the impactor (ball) does "

@@ -232,6 +232,7 @@ TEST_P(HandPlayedCopies, WaitForTheirTurn) {
     }
     return false;
   });
+  // They could be saved, or nobody would ask.
   for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) peer->hello.add_capabilities("state");
   EXPECT_EQ(text_of_end([&steps] { steps.run(); }), "");
   EXPECT_EQ(witness_.order_, "forces report report forces forces report report ");

@@ -95,6 +95,25 @@ TEST_F(DirectPath, LooksElsewhereWhileItWaits) {
 
 class ServeDirect : public ServeStructure {};
 
+class Mute final : public ImpactorBackend {
+  wire::Hello describe() const override { return {}; }
+  wire::Ready prepare(const wire::Setup& /*setup*/) override { return {}; }
+  void run(const wire::Start& /*start*/, ImpactorLink& /*link*/) override {}
+};
+
+TEST(ServeDirectImpactor, DoesNotListen) {
+  testing::ScriptedOrchestrator talk(
+      [](transport::Channel& channel, const ServeOptions& options) {
+        Mute mute;
+        return serve_impactor(channel, mute, options);
+      },
+      {.direct = {{.listen = "ipc:///somewhere"}}});
+  const auto error = talk.hear<wire::Error>();
+  EXPECT_EQ(error.kind(), wire::Error::BAD_INPUT);
+  EXPECT_NE(error.text().find("--data-listen ipc:///somewhere: the structure listens"), std::string::npos);
+  EXPECT_EQ(talk.exit_code(), 2);
+}
+
 TEST_F(ServeDirect, AStructureSaysWhereItListens) {
   const TemporaryDirectory directory;
   const std::string endpoint = "ipc://" + (directory.path() / "data").string();

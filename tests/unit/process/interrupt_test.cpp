@@ -21,6 +21,25 @@ TEST(Interrupt, the_first_signal_is_readable) {
   }
 }
 
+TEST(Interrupt, a_wish_is_told_once_and_ends_nothing) {
+  {
+    Interrupt interrupt;
+    EXPECT_FALSE(interrupt.asked());
+    for (int time = 0; time < 2; ++time) {
+      ::kill(::getpid(), SIGUSR1);
+      pollfd item{interrupt.descriptor(), POLLIN, 0};
+      ASSERT_EQ(::poll(&item, 1, grainstep::testing::patience_ms), 1);
+      EXPECT_FALSE(interrupt.raised());
+      EXPECT_TRUE(interrupt.asked());
+      EXPECT_FALSE(interrupt.asked());
+    }
+    ::kill(::getpid(), SIGTERM);
+    EXPECT_TRUE(interrupt.raised());
+    ::kill(::getpid(), SIGUSR1);
+  }
+  SUCCEED() << "one that came too late has ended nothing either";
+}
+
 TEST(Interrupt, a_closed_terminal_is_survived_under_nohup) {
   const auto before = ::signal(SIGHUP, SIG_IGN);
   {

@@ -63,6 +63,11 @@ void leave_a_run(const RunDirectory& directory) {
                                   directory.paraview() / "impactor_12345.vtu"}) {
     touch(cut_off.string() + ".part");
   }
+  // A new run that is ended early would go on with those of the old one.
+  fs::create_directories(directory.checkpoints());
+  for (const char* kept : {"window-7.checkpoint", "window-12345.checkpoint", "window-8.checkpoint.part"}) {
+    touch(directory.checkpoints() / kept);
+  }
 }
 
 TEST(RunDirectory, IsMadeWithItsParents) {
@@ -88,9 +93,15 @@ TEST(RunDirectory, ReplacingRemovesAllThatARunWroteAndNothingElse) {
   EXPECT_EQ(refusal_of(directory), "");
   leave_a_run(directory);
   EXPECT_GT(contents_of(scratch.path()).size(), 12U);
-  const std::set<std::string> of_people = {
-      "notes.txt",      "impactor.txt",        "own.pvd",      "paraview/view.pvsm", "paraview/structure_best.vtu",
-      "logs/notes.txt", "logs/impactor-2.log", "pictures.part"};
+  const std::set<std::string> of_people = {"notes.txt",
+                                           "impactor.txt",
+                                           "own.pvd",
+                                           "paraview/view.pvsm",
+                                           "paraview/structure_best.vtu",
+                                           "logs/notes.txt",
+                                           "logs/impactor-2.log",
+                                           "pictures.part",
+                                           "checkpoints/window-x.checkpoint"};
   for (const std::string& file : of_people) touch(scratch.path() / file);
   EXPECT_EQ(refusal_of(directory, Existing::replace), "");
   std::set<std::string> left = of_people;
