@@ -99,6 +99,7 @@ bool LockStep::early(const Peer& peer, const wire::Frame& frame) const {
   if (kind == wire::Envelope::kForces && forces_wait()) return true;
   if (kind == wire::Envelope::kForces) return direct_ && structure_owes_ && window == next_forces_;
   if (kind == wire::Envelope::kKinematics) return direct_ && !structure_owes_ && window == next_forces_ + 1;
+  if (kind == wire::Envelope::kState || kind == wire::Envelope::kSaved) return saving_.expected();
   const bool report = kind == wire::Envelope::kReport;
   const Extra& side = peer.role == wire::IMPACTOR ? impactor_ : structure_;
   const bool next =

@@ -27,6 +27,8 @@ class Saving {
   /// Forces said that this window is to be saved. PeerError where nobody asked for it.
   void begin(std::uint64_t window, std::vector<double> surface);
 
+  /// A state may come before the Forces that ask for it have been heard.
+  [[nodiscard]] bool expected() const { return asked_ && !holds_back(); }
   [[nodiscard]] bool holds_back() const { return impactor_.has_value(); }
   [[nodiscard]] std::uint64_t window() const { return window_; }
   /// Whose state is not complete yet, of a window that has begun to be saved.

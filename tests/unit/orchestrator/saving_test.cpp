@@ -25,15 +25,17 @@ class HandPlayedSaving : public HandPlayed {
     out.set_save(true);
     return out;
   }
-  static wire::State part(std::uint32_t chunk, const std::string& bytes) {
+  static wire::State part(std::uint32_t chunk, const std::string& bytes, std::uint64_t window = 0) {
     wire::State out;
+    out.set_window(window);
     out.set_chunk(chunk);
     out.set_data(bytes);
     out.set_checksum(checksum_of(bytes));
     return out;
   }
-  static wire::Saved saved(std::uint32_t chunks) {
+  static wire::Saved saved(std::uint32_t chunks, std::uint64_t window = 0) {
     wire::Saved out;
+    out.set_window(window);
     out.set_chunks(chunks);
     return out;
   }
@@ -96,6 +98,39 @@ TEST_P(HandPlayedSaving, ForcesOfTheNextWindowWaitForBothStates) {
   EXPECT_EQ(witness_.checkpoints_[0].impactor, "sand");
   EXPECT_EQ(witness_.checkpoints_[0].structure, "steel");
   EXPECT_EQ(witness_.checkpoints_[0].surface, (std::vector<double>{0.0, 0.0, 1.0, 0.0}));
+}
+
+// On the short path the structure has read Forces that are not heard here yet, because a report is.
+TEST_P(HandPlayedSaving, AStateMayOvertakeTheForcesThatAskForIt) {
+  if (GetParam() != Path::shared) return;
+  start_.set_windows(2);
+  start_.set_report_every(2);
+  LockStep steps(hub_, witness_, start_, grainstep::testing::patience_s, listener_.get());
+  int turn = 0;
+  steps.save_when([&] {
+    if (++turn == 1) {
+      impactor_.data().send(forces(0));
+      impactor_.data().send(marked(1));
+      structure_.data().send(kinematics(1));
+      structure_.data().send(kinematics(2));
+      structure_.messages_->send(report(0));
+      structure_.messages_->send(part(0, "steel", 1));
+      structure_.messages_->send(saved(1, 1));
+      structure_.messages_->send(report(2));
+      return true;
+    }
+    if (turn == 2) {
+      impactor_.messages_->send(report(0));
+      impactor_.messages_->send(part(0, "sand", 1));
+      impactor_.messages_->send(saved(1, 1));
+      impactor_.data().send(forces(2));
+      impactor_.messages_->send(report(2));
+    }
+    return false;
+  });
+  EXPECT_EQ(text_of_end([&steps] { steps.run(); }), "");
+  ASSERT_EQ(witness_.checkpoints_.size(), 1U);
+  EXPECT_EQ(witness_.checkpoints_[0].structure, "steel");
 }
 
 TEST_P(HandPlayedSaving, IsNotAskedForWhereOneSideCannot) {
