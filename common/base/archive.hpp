@@ -160,6 +160,7 @@ class Loading {
     if constexpr (plain<typename Container::value_type> && Growing<Container>) {
       const std::size_t element = sizeof *all.data();
       if (all.size() > left_.size() / element) refuse("is cut off");
+      if (all.size() == 0) return;  // memcpy is not defined for the null pointers of the empty
       std::memcpy(static_cast<void*>(all.data()), next(all.size() * element).data(), all.size() * element);
     } else {
       for (auto& one : all) get(one);

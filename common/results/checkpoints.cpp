@@ -58,7 +58,10 @@ fs::path Checkpoints::file(std::uint64_t window) const {
 
 void Checkpoints::write(std::uint64_t window, Parts parts) const {
   File file;
-  for (auto& [name, bytes] : parts) file.parts.push_back({name, std::move(bytes)});
+  while (!parts.empty()) {
+    auto one = parts.extract(parts.begin());
+    file.parts.push_back({std::move(one.key()), std::move(one.mapped())});
+  }
   const std::string bytes = base::saved(file);
   std::error_code refused;
   fs::create_directory(directory_, refused);

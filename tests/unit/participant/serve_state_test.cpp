@@ -81,7 +81,7 @@ class ServeState : public ServeStructure {
     talk.hear<wire::Report>(0);
     talk.tell(marked(1));
     talk.hear<wire::Kinematics>(2);
-    const auto state = talk.hear<wire::State>(1);
+    auto state = talk.hear<wire::State>(1);
     EXPECT_EQ(talk.hear<wire::Saved>(1).chunks(), 1U);
     talk.tell(stop());
     talk.hear<wire::Finished>();
