@@ -104,7 +104,7 @@ ACCURACY_REPEAT ?= --repeat
 accuracy: build
 	@$(BUILD)/bin/grainstep study configs/studies/speed-error.yaml --out $(ACCURACY) --jobs 1 $(ACCURACY_REPEAT) $(ACCURACY_OPTIONS) \
 	  --page docs/accuracy.md
-	@cp $(ACCURACY)/series.csv orchestrator/fidelity.csv
+	@cp $(ACCURACY)/series.csv orchestrator/command/fidelity.csv
 
 # The paper's figures. A statement that does not hold (exit code 3) is a result; anything else stops.
 FIGURES := fig04 fig05 fig06 fig07 fig08 fig09 fig10 fig11 fig12 fig13 fig14 fig17a fig17b fig18 figA1 figA2 contact

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "contact/rest_on.hpp"
-#include "dem-service/lammps_session.hpp"
-#include "dem-service/packing.hpp"
-#include "dem-service/slug_model.hpp"
+#include "dem-service/lammps/session.hpp"
+#include "dem-service/slug/model.hpp"
+#include "dem-service/slug/packing.hpp"
 
 #define LAMMPS_LIB_MPI
 #include <lammps/library.h>

@@ -58,9 +58,9 @@ grainstep_exported(contact EXPORT grainstep
 # its windows with contact, exchange with the other side and reports. An export of its own: only its users need fmt.
 grainstep_exported(particles EXPORT grainstep_particles
   FOLDERS scene_sizes dem_law dem_driver
-  HEADERS common/scene/sizes.hpp dem-service/damping.hpp dem-service/mpi_start.hpp dem-service/packing.hpp
-    dem-service/pair_energy.hpp dem-service/plane_contacts.hpp dem-service/preview.hpp dem-service/exchange.hpp
-    dem-service/slug_layout.hpp dem-service/slug_model.hpp dem-service/slug_report.hpp dem-service/step_driver.hpp
+  HEADERS common/scene/sizes.hpp dem-service/law/damping.hpp dem-service/mpi_start.hpp dem-service/slug/packing.hpp
+    dem-service/law/pair_energy.hpp dem-service/law/plane_contacts.hpp dem-service/slug/preview.hpp dem-service/slug/exchange.hpp
+    dem-service/slug/layout.hpp dem-service/slug/model.hpp dem-service/slug/report.hpp dem-service/slug/step_driver.hpp
   PUBLIC grainstep-contact PRIVATE fmt::fmt)
 
 foreach(name options scene wire)

@@ -1,4 +1,4 @@
-# grainstep-dem derives from LAMMPS's own C++ classes (dem-service/lammps_adapter.hpp). They are no stable interface: with
+# grainstep-dem derives from LAMMPS's own C++ classes (dem-service/lammps/adapter.hpp). They are no stable interface: with
 # another version what compiles may still read another layout. So only versions that passed our tests are taken.
 set(GRAINSTEP_LAMMPS_KNOWN 20210929)  # as liblammps.pc says it; Debian 12
 

@@ -1,9 +1,9 @@
 #include "fe-service/impactor.hpp"
 
 #include "base/assert.hpp"
+#include "declare/ranges.hpp"
 #include "fe-service/foam/foam_impactor.hpp"
 #include "fe-service/load/prescribed_load.hpp"
-#include "scene/ranges.hpp"
 
 namespace grainstep::fe {
 
@@ -15,8 +15,8 @@ wire::Hello Impactor::describe() const {
 }
 
 wire::Ready Impactor::prepare(const wire::Setup& setup) {
-  scene::require_ranges(setup.impactor().impactor(), "impactor");
-  if (setup.impactor().has_guards()) scene::require_ranges(setup.impactor().guards(), "guards");
+  declare::require_ranges(setup.impactor().impactor(), "impactor");
+  if (setup.impactor().has_guards()) declare::require_ranges(setup.impactor().guards(), "guards");
   if (setup.impactor().impactor().type() == scene::Impactor::TYPE_FOAM) {
     impactor_ = std::make_unique<FoamImpactor>();
   } else {

@@ -2,11 +2,11 @@
 
 #include "base/assert.hpp"
 #include "base/error.hpp"
+#include "declare/ranges.hpp"
 #include "fe-service/kernel/kernel.hpp"
 #include "fe-service/materials/material.hpp"
 #include "fe-service/preview.hpp"
 #include "participant/hello.hpp"
-#include "scene/ranges.hpp"
 
 namespace grainstep::fe {
 
@@ -23,8 +23,8 @@ wire::Hello Structure::describe() const {
 // What a preview finds is what check_measure() and the mesh would refuse in a run as well, before memory is taken.
 wire::Ready Structure::prepare(const wire::Setup& setup) {
   if (!setup.has_structure()) throw InputError("setup: grainstep-fe is a structure, but was sent an impactor's part");
-  scene::require_ranges(setup.structure().structure(), "structure");
-  if (setup.structure().has_guards()) scene::require_ranges(setup.structure().guards(), "guards");
+  declare::require_ranges(setup.structure().structure(), "structure");
+  if (setup.structure().has_guards()) declare::require_ranges(setup.structure().guards(), "guards");
   const StructurePreview found = preview(setup.structure().structure(), setup.symmetry(), setup.depth());
   wire::Ready ready = found.ready();
   ready.set_scene_hash(setup.scene_hash());

@@ -7,11 +7,11 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "orchestrator/check_command.hpp"
-#include "orchestrator/end_of_program.hpp"
-#include "orchestrator/options.hpp"
-#include "orchestrator/run_command.hpp"
-#include "orchestrator/show_command.hpp"
+#include "orchestrator/command/check_command.hpp"
+#include "orchestrator/command/command_line.hpp"
+#include "orchestrator/command/end_of_program.hpp"
+#include "orchestrator/command/run_command.hpp"
+#include "orchestrator/command/show_command.hpp"
 #include "process/launch.hpp"
 
 namespace {

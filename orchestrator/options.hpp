@@ -1,4 +1,4 @@
-/// @file What the command line says.
+/// @file What a command line may ask for, a struct for each command.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "orchestrator/hub.hpp"
+#include "orchestrator/session/hub.hpp"
 
 namespace grainstep::orchestrator {
 
@@ -74,18 +74,5 @@ struct ConformanceOptions {
   std::vector<std::string> command;  ///< empty: the scene's program
   double patience_s = 20.0;
 };
-
-/// One of the commands with its options; `exit_code` instead where the command line was answered already (--help) or
-/// cannot be used (one message was written).
-struct CommandLine {
-  std::optional<int> exit_code;
-  std::optional<RunOptions> run;
-  std::optional<CheckOptions> check;
-  std::optional<ShowOptions> show;
-  std::optional<StudyOptions> study;
-  std::optional<ConformanceOptions> conformance;
-};
-
-[[nodiscard]] CommandLine parse(int argc, const char* const* argv);
 
 }  // namespace grainstep::orchestrator

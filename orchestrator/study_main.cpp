@@ -1,8 +1,8 @@
 /// @file grainstep-study: what `grainstep study` and `grainstep conformance` become. Takes the command line of those.
+#include "orchestrator/command/command_line.hpp"
+#include "orchestrator/command/end_of_program.hpp"
 #include "orchestrator/conformance/conformance_command.hpp"
-#include "orchestrator/end_of_program.hpp"
-#include "orchestrator/options.hpp"
-#include "study/study_command.hpp"
+#include "orchestrator/study/study_command.hpp"
 
 int main(int argc, char** argv) {
   using namespace grainstep;

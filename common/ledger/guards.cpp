@@ -24,9 +24,10 @@ std::string text_of(const Limit& limit) {
 
 std::optional<std::string> violation(const scene::Guards& guards, const Guarded& guarded) {
   const Balance& b = guarded.balance;
+  const bool foam = guarded.impactor == scene::Impactor::TYPE_FOAM;
   std::vector<Limit> limits = {
       {"energy_drift", b.energy_drift, guards.energy_drift(), !(b.energy_drift <= guards.energy_drift()),
-       guarded.foam
+       foam
            ? "Energy was made or lost by the integration itself. If it falls with the steps, take smaller ones "
              "(steps.impactor, steps.structure); if not, the foam's contact is too soft or its shock too narrow for "
              "its "
@@ -40,11 +41,10 @@ std::optional<std::string> violation(const scene::Guards& guards, const Guarded&
   if (guarded.overlap) {
     limits.push_back(
         {"overlap", *guarded.overlap, guards.overlap(), !(*guarded.overlap <= guards.overlap()),
-         guarded.foam
-             ? "The foam's nodes pass into the structure by that part of their contact's diameter, half an "
-               "element: the contact is too soft for this speed. Raise impactor.foam.contact_stiffness."
-             : "Particles pass into each other or into the structure by that part of a diameter: the contact is "
-               "too soft for this speed. Raise particle.normal_stiffness."});
+         foam ? "The foam's nodes pass into the structure by that part of their contact's diameter, half an "
+                "element: the contact is too soft for this speed. Raise impactor.foam.contact_stiffness."
+              : "Particles pass into each other or into the structure by that part of a diameter: the contact is "
+                "too soft for this speed. Raise particle.normal_stiffness."});
   }
   if (guarded.element_quality) {
     limits.push_back(

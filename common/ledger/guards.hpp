@@ -14,7 +14,7 @@ struct Guarded {
   Balance balance;
   std::optional<double> overlap;          ///< largest overlap over the diameter since the last report
   std::optional<double> element_quality;  ///< smallest element area over its initial area
-  bool foam = false;                      ///< the impactor is a foam projectile, for the advice
+  scene::Impactor::Type impactor = scene::Impactor::TYPE_UNSET;  ///< for the advice
 };
 
 /// nullopt: all is well. Otherwise what was found, what was allowed, what it means and what to do, in one text.

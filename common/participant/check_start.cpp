@@ -7,7 +7,7 @@
 namespace grainstep::participant {
 namespace {
 
-/// As many as the orchestrator ever asks for (orchestrator/step_plan.cpp): beyond it, no window would end.
+/// As many as the orchestrator ever asks for (orchestrator/session/step_plan.cpp): beyond it, no window would end.
 constexpr std::uint32_t most_steps_per_window = 1000000000;
 
 bool is_interval(double windows) { return std::isfinite(windows) && windows >= 0.0; }

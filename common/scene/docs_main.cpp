@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "declare/schema.hpp"
 #include "scene/reference.hpp"
-#include "scene/schema.hpp"
 
 namespace {
 
@@ -22,12 +22,13 @@ bool write(const fs::path& path, const std::string& text) {
 }
 
 bool write_all(const fs::path& folder) {
+  namespace declare = grainstep::declare;
   namespace scene = grainstep::scene;
   const auto& study = *grainstep::study::Study::descriptor();
   return write(folder / "scene-reference.md", scene::reference_markdown()) &&
-         write(folder / "scene.schema.json", scene::json_schema()) &&
+         write(folder / "scene.schema.json", declare::json_schema(*scene::Scene::descriptor())) &&
          write(folder / "study-reference.md", scene::reference_markdown(study, scene::study_head())) &&
-         write(folder / "study.schema.json", scene::json_schema(study));
+         write(folder / "study.schema.json", declare::json_schema(study));
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "scene/declaration.hpp"
+#include "declare/declaration.hpp"
+#include "declare/read.hpp"
 #include "scene/load.hpp"
-#include "scene/read.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -50,7 +50,7 @@ bool same(const Message& one, const Message& other, const FieldDescriptor& field
 /// another one.
 void drop_defaults(Message& message, const std::string& path, std::string& zeros) {
   const auto& reflection = *message.GetReflection();
-  const std::unique_ptr<Message> defaults = defaults_of(message);
+  const std::unique_ptr<Message> defaults = declare::defaults_of(message);
   std::vector<const FieldDescriptor*> set;
   reflection.ListFields(*defaults, &set);
   for (const FieldDescriptor* field : set) {
@@ -60,7 +60,7 @@ void drop_defaults(Message& message, const std::string& path, std::string& zeros
   set.clear();
   reflection.ListFields(message, &set);
   for (const FieldDescriptor* field : set) {
-    if (!is_section(*field)) {
+    if (!declare::is_section(*field)) {
       if (same(message, *defaults, *field)) reflection.ClearField(&message, field);
     } else if (field->is_repeated()) {
       for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
@@ -70,7 +70,8 @@ void drop_defaults(Message& message, const std::string& path, std::string& zeros
     } else {
       Message& part = *reflection.MutableMessage(&message, field);
       drop_defaults(part, path + field->name() + ".", zeros);
-      if (part.ByteSizeLong() == 0 && key_of(*field).default_value() == "{}") reflection.ClearField(&message, field);
+      if (part.ByteSizeLong() == 0 && declare::key_of(*field).default_value() == "{}")
+        reflection.ClearField(&message, field);
     }
   }
 }

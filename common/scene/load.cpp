@@ -4,21 +4,21 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "declare/include.hpp"
+#include "declare/overrides.hpp"
+#include "declare/problems.hpp"
+#include "declare/read.hpp"
+#include "declare/suggest.hpp"
 #include "grainstep/study.pb.h"
 #include "scene/core.hpp"
-#include "scene/include.hpp"
-#include "scene/overrides.hpp"
-#include "scene/problems.hpp"
-#include "scene/read.hpp"
 #include "scene/rules.hpp"
-#include "scene/suggest.hpp"
 
 namespace grainstep::scene {
 using google::protobuf::Message;
 
 namespace {
 
-std::vector<std::string> known_of(const Tree& tree, const google::protobuf::Descriptor& kind) {
+std::vector<std::string> known_of(const declare::Tree& tree, const google::protobuf::Descriptor& kind) {
   std::vector<std::string> known;
   for (const auto& [name, member] : tree.members) {
     if (kind.FindFieldByName(name) != nullptr) known.push_back(name);
@@ -27,7 +27,7 @@ std::vector<std::string> known_of(const Tree& tree, const google::protobuf::Desc
 }
 
 /// A study where a scene belongs, or a scene for a study: a list of unknown keys would not say so.
-void refuse_other_kind(const Tree& tree, const std::string& file, const google::protobuf::Descriptor& wanted) {
+void refuse_other_kind(const declare::Tree& tree, const std::string& file, const google::protobuf::Descriptor& wanted) {
   const bool scene = &wanted == Scene::descriptor();
   if (!scene && &wanted != study::Study::descriptor()) return;
   const auto& other = scene ? *study::Study::descriptor() : *Scene::descriptor();
@@ -35,29 +35,30 @@ void refuse_other_kind(const Tree& tree, const std::string& file, const google::
   if (of_other.size() <= known_of(tree, wanted).size()) return;
   const std::string advice = scene ? "a study, not a scene: use grainstep study " + file
                                    : "a scene, not a study: use grainstep run " + file + ", or grainstep check";
-  throw InputError(file + ": is " + advice + " (it has the keys " + join_words(of_other) + ")");
+  throw InputError(file + ": is " + advice + " (it has the keys " + declare::join_words(of_other) + ")");
 }
 
 }  // namespace
 
-Tree load(const std::filesystem::path& path, std::span<const Override> overrides, Message& message) {
-  Problems problems;
-  Tree tree = read_file(path, problems);
+declare::Tree load(const std::filesystem::path& path, std::span<const declare::Override> overrides, Message& message) {
+  declare::Problems problems;
+  declare::Tree tree = declare::read_file(path, problems);
   refuse_other_kind(tree, path.string(), *message.GetDescriptor());
-  for (const auto& one : overrides) apply_override(tree, one, problems);
+  for (const auto& one : overrides) declare::apply_override(tree, one, problems);
   const std::unique_ptr<Message> read(message.New());
-  read_message(tree, "", *read, problems);
+  declare::read_message(tree, "", *read, problems);
   problems.throw_if_any();
   message.GetReflection()->Swap(&message, read.get());
   return tree;
 }
 
-Scene load_scene(const std::filesystem::path& path, std::span<const Override> overrides) {
+Scene load_scene(const std::filesystem::path& path, std::span<const declare::Override> overrides) {
   Scene scene;
-  const Tree tree = load(path, overrides, scene);
-  Problems problems;
+  const declare::Tree tree = load(path, overrides, scene);
+  declare::Problems problems;
   for (const auto& finding : check_rules(scene)) {
-    if (finding.severity == Severity::error) problems.add(origin_of(tree, finding.path), finding.path, finding.text);
+    if (finding.severity == Severity::error)
+      problems.add(declare::origin_of(tree, finding.path), finding.path, finding.text);
   }
   problems.throw_if_any();
   resolve_cores(scene);
@@ -65,7 +66,7 @@ Scene load_scene(const std::filesystem::path& path, std::span<const Override> ov
 }
 
 Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  std::vector<Override> of_command_line;
+  std::vector<declare::Override> of_command_line;
   for (const auto& text : overrides) of_command_line.push_back({.text = text});
   return load_scene(path, of_command_line);
 }

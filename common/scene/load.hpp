@@ -11,24 +11,22 @@
 #include <span>
 #include <string>
 
+#include "declare/overrides.hpp"
 #include "grainstep/scene.pb.h"
-#include "scene/overrides.hpp"
 
 namespace grainstep::scene {
 
 /// Reads `path` with what it includes, applies `overrides` ("a.b.0.c=VALUE") in order, and fills `message`, whose type
 /// is declared with options.proto. `message` is unchanged if an exception is thrown.
 /// Returns what was read, which knows where everything was written (origin_of).
-Tree load(const std::filesystem::path& path, std::span<const Override> overrides, google::protobuf::Message& message);
+declare::Tree load(const std::filesystem::path& path, std::span<const declare::Override> overrides,
+                   google::protobuf::Message& message);
 
 /// The same for a scene, and the rules between its keys (rules.hpp).
-[[nodiscard]] Scene load_scene(const std::filesystem::path& path, std::span<const Override> overrides);
+[[nodiscard]] Scene load_scene(const std::filesystem::path& path, std::span<const declare::Override> overrides);
 
 /// With the overrides of a command line.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
-
-/// Everything `message` says, defaults included, in SI with units. Deterministic; load() gives the same message again.
-[[nodiscard]] std::string to_yaml(const google::protobuf::Message& message);
 
 /// XXH3 of the serialised scene: two participants with the same hash compute the same scene.
 [[nodiscard]] std::uint64_t scene_hash(const Scene& scene);

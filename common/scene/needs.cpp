@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <sstream>
 
-#include "scene/declaration.hpp"
+#include "declare/declaration.hpp"
 
 namespace grainstep::scene {
 namespace {
 
 template <typename Side>
 std::string type_word(const Side& side) {
-  return word_for(*Side::Type_descriptor(), side.type());
+  return declare::word_for(*Side::Type_descriptor(), side.type());
 }
 
 void add_layers(const Structure& structure, std::vector<Need>& found) {
   for (int i = 0; i < structure.layers_size(); ++i) {
-    const std::string word = word_for(*Layer::Material_descriptor(), structure.layers(i).material());
+    const std::string word = declare::word_for(*Layer::Material_descriptor(), structure.layers(i).material());
     const auto same = [&word](const Need& need) { return need.word == word; };
     if (std::ranges::none_of(found, same)) {
       found.push_back({word, "structure.layers." + std::to_string(i) + ".material"});

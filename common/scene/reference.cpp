@@ -3,8 +3,8 @@
 #include <deque>
 #include <utility>
 
-#include "scene/declaration.hpp"
-#include "scene/tree.hpp"
+#include "declare/declaration.hpp"
+#include "declare/tree.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -33,40 +33,42 @@ std::string type_text(const FieldDescriptor& field) {
     case FieldDescriptor::CPPTYPE_STRING:
       return "text";
     case FieldDescriptor::CPPTYPE_MESSAGE:
-      if (is_free(field)) return "any keys";
-      return is_section(field) ? "section" : "see below";
+      if (declare::is_free(field)) return "any keys";
+      return declare::is_section(field) ? "section" : "see below";
     default:
       return "whole number";
   }
 }
 
 std::string default_text(const FieldDescriptor& field) {
-  const auto& key = key_of(field);
+  const auto& key = declare::key_of(field);
   if (key.required()) return "**required**";
   if (key.default_value().empty()) return "-";
-  return is_section(field) ? "its own" : code(key.default_value());
+  return declare::is_section(field) ? "its own" : code(key.default_value());
 }
 
 std::string row(const FieldDescriptor& field) {
-  const auto& key = key_of(field);
+  const auto& key = declare::key_of(field);
   const std::string type = (field.is_repeated() ? "list of " : "") + type_text(field);
-  return "| " + code(field.name()) + " | " + type + " | " + code(key.unit()) + " | " + range_text(key) + " | " +
-         default_text(field) + " | " + code(key.symbol()) + " | " + in_a_table(key.text()) + usual_sentence(key) +
-         " |\n";
+  return "| " + code(field.name()) + " | " + type + " | " + code(key.unit()) + " | " + declare::range_text(key) +
+         " | " + default_text(field) + " | " + code(key.symbol()) + " | " + in_a_table(key.text()) +
+         declare::usual_sentence(key) + " |\n";
 }
 
 /// What may stand for a key that is neither a number nor a section: its words, or its alternatives.
 std::string choices(const FieldDescriptor& field) {
   std::string text;
   if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
-    for (const auto& word : words_of(*field.enum_type())) text += "  - " + code(word.word) + ": " + word.text + "\n";
-  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !is_section(field) && !is_free(field)) {
-    for (const auto* member : alternatives(*field.message_type())) {
-      const std::string range = range_text(key_of(*member));
+    for (const auto& word : declare::words_of(*field.enum_type()))
+      text += "  - " + code(word.word) + ": " + word.text + "\n";
+  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !declare::is_section(field) &&
+             !declare::is_free(field)) {
+    for (const auto* member : declare::alternatives(*field.message_type())) {
+      const std::string range = declare::range_text(declare::key_of(*member));
       const bool word = member->cpp_type() == FieldDescriptor::CPPTYPE_ENUM;
-      const std::string form = word ? code(expected_value(*member)) : expected_value(*member);
-      text += "  - " + form + ": " + key_of(*member).text() + (range.empty() ? "" : " (" + range + ")") + "." +
-              usual_sentence(key_of(*member)) + "\n";
+      const std::string form = word ? code(declare::expected_value(*member)) : declare::expected_value(*member);
+      text += "  - " + form + ": " + declare::key_of(*member).text() + (range.empty() ? "" : " (" + range + ")") + "." +
+              declare::usual_sentence(declare::key_of(*member)) + "\n";
     }
   }
   return text.empty() ? text : "- " + code(field.name()) + " is one of\n" + text;
@@ -74,7 +76,7 @@ std::string choices(const FieldDescriptor& field) {
 
 std::string section_text(const std::string& path, const Descriptor& message) {
   std::string text = "## " + (path.empty() ? std::string("Top level") : code(path)) + "\n\n";
-  text += section_of(message).text() + "\n\n";
+  text += declare::section_of(message).text() + "\n\n";
   text += "| key | value | SI unit | range | default | symbol | meaning |\n";
   text += "|---|---|---|---|---|---|---|\n";
   std::string words;
@@ -119,7 +121,7 @@ std::string reference_markdown(const Descriptor& root, const ReferenceHead& head
     for (int i = 0; i < message->field_count(); ++i) {
       const FieldDescriptor& field = *message->field(i);
       const std::string name = field.name() + (field.is_repeated() ? ".N" : "");
-      if (is_section(field)) parts.emplace_back(join_path(path, name), field.message_type());
+      if (declare::is_section(field)) parts.emplace_back(declare::join_path(path, name), field.message_type());
     }
     open.insert(open.begin(), parts.begin(), parts.end());
   }

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "declare/read.hpp"
 #include "scene/bulk_viscosity.hpp"
 #include "scene/core.hpp"
 #include "scene/encounter.hpp"
 #include "scene/foam_rules.hpp"
 #include "scene/groups.hpp"
-#include "scene/read.hpp"
 #include "scene/sizes.hpp"
 #include "scene/usual.hpp"
 
@@ -47,7 +47,7 @@ void slug_holds_particles(const Scene& scene, Findings& findings) {
 
 void slice_is_read(const Scene& scene, Findings& findings) {
   if (scene.symmetry() == SYMMETRY_AXISYMMETRIC) return;
-  const double absent = static_cast<const Slug&>(*defaults_of(Slug())).slice_angle();
+  const double absent = static_cast<const Slug&>(*declare::defaults_of(Slug())).slice_angle();
   if (scene.impactor().slug().slice_angle() == absent) return;
   findings.push_back({Severity::error, "impactor.slug.slice_angle",
                       "nobody would read it: with symmetry: plane_strain the slug is one of cylinders; set symmetry: "

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
-#include "scene/declaration.hpp"
+#include "declare/declaration.hpp"
+#include "declare/tree.hpp"
 #include "scene/sizes.hpp"
-#include "scene/tree.hpp"
 
 namespace grainstep::scene {
 namespace {
@@ -23,11 +23,11 @@ bool is_unusual(const options::Key& key, double value) {
 }
 
 void look_at(const FieldDescriptor& field, double value, const std::string& path, Findings& findings) {
-  const options::Key& key = key_of(field);
+  const options::Key& key = declare::key_of(field);
   if (!is_unusual(key, value)) return;
   findings.push_back({Severity::warning, path,
                       "found " + prefixed_text(value, key.unit()) + "; " + key.usual_text() + " are usually " +
-                          usual_range(key) + advice});
+                          declare::usual_range(key) + advice});
 }
 
 /// Everything that `message` says, down to its last key. Of a list of numbers the first unusual one stands for all.
@@ -36,13 +36,13 @@ void walk(const Message& message, const std::string& path, Findings& findings) {
   std::vector<const FieldDescriptor*> present;
   reflection.ListFields(message, &present);
   for (const FieldDescriptor* field : present) {
-    const bool alternative = section_of(*message.GetDescriptor()).scalar_form();
-    const std::string at = alternative ? path : join_path(path, field->name());
-    const bool section = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !is_free(*field);
+    const bool alternative = declare::section_of(*message.GetDescriptor()).scalar_form();
+    const std::string at = alternative ? path : declare::join_path(path, field->name());
+    const bool section = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !declare::is_free(*field);
     const bool number = field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE;
     const std::size_t before = findings.size();
     for (int i = 0; field->is_repeated() && i < reflection.FieldSize(message, field); ++i) {
-      const std::string item = join_path(at, std::to_string(i));
+      const std::string item = declare::join_path(at, std::to_string(i));
       if (section) walk(reflection.GetRepeatedMessage(message, field, i), item, findings);
       if (number && findings.size() == before) {
         look_at(*field, reflection.GetRepeatedDouble(message, field, i), item, findings);

@@ -3,9 +3,9 @@
 #include <cstdio>
 
 #include "base/error.hpp"
-#include "dem-service/attach.hpp"
 #include "dem-service/deck/deck_particles.hpp"
-#include "dem-service/pair/style.hpp"
+#include "dem-service/lammps/attach.hpp"
+#include "dem-service/lammps/pair_style.hpp"
 #include "participant/connect.hpp"
 #include "participant/hello.hpp"
 #include "participant/serve.hpp"

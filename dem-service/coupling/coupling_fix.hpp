@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "dem-service/deck/deck_model.hpp"
-#include "dem-service/rank_exchange.hpp"
-#include "dem-service/surface_fix.hpp"
+#include "dem-service/lammps/rank_exchange.hpp"
+#include "dem-service/lammps/surface_fix.hpp"
 
 namespace grainstep::dem {
 

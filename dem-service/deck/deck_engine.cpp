@@ -7,10 +7,10 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "dem-service/attach.hpp"
 #include "dem-service/deck/deck_particles.hpp"
-#include "dem-service/lammps_adapter.hpp"
-#include "dem-service/pair/style.hpp"
+#include "dem-service/lammps/adapter.hpp"
+#include "dem-service/lammps/attach.hpp"
+#include "dem-service/lammps/pair_style.hpp"
 #include "surface/disc_overlap.hpp"
 
 namespace grainstep::dem {

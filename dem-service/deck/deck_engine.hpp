@@ -4,9 +4,9 @@
 
 #include "base/temporary_directory.hpp"
 #include "dem-service/deck/deck_model.hpp"
-#include "dem-service/engine.hpp"
-#include "dem-service/impactor.hpp"
-#include "dem-service/lammps_session.hpp"
+#include "dem-service/lammps/engine.hpp"
+#include "dem-service/lammps/impactor.hpp"
+#include "dem-service/lammps/session.hpp"
 
 namespace grainstep::dem {
 

@@ -1,7 +1,7 @@
 /// @file What a LAMMPS script has made, as the engine needs to know it to attach contact with the surface.
 #pragma once
 
-#include "dem-service/slug_model.hpp"
+#include "dem-service/slug/model.hpp"
 #include "grainstep/scene.pb.h"
 #include "grainstep/wire.pb.h"
 

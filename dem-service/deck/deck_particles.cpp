@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "dem-service/pair/style.hpp"
+#include "dem-service/lammps/pair_style.hpp"
 
 namespace grainstep::dem {
 namespace {

@@ -4,7 +4,7 @@
 #include <mpi.h>
 
 #include "dem-service/deck/deck_model.hpp"
-#include "dem-service/lammps_adapter.hpp"
+#include "dem-service/lammps/adapter.hpp"
 
 namespace grainstep::dem {
 

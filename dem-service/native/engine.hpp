@@ -8,7 +8,7 @@
 
 #include "contact/particle_arrays.hpp"
 #include "dem-service/pair/pair.hpp"
-#include "dem-service/slug_layout.hpp"
+#include "dem-service/slug/layout.hpp"
 #include "participant/backend.hpp"
 
 namespace grainstep::dem::native {

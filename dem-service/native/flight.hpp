@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "dem-service/slug_layout.hpp"
+#include "dem-service/slug/layout.hpp"
 
 namespace grainstep::dem::native {
 

@@ -9,7 +9,7 @@
 #include "dem-service/native/rows.hpp"
 #include "dem-service/native/sweeps.hpp"
 #include "dem-service/pair/contacts.hpp"
-#include "dem-service/slug_layout.hpp"
+#include "dem-service/slug/layout.hpp"
 
 namespace grainstep::dem::native {
 

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "contact/moving_surface.hpp"
 #include "dem-service/native/engine.hpp"
-#include "dem-service/preview.hpp"
+#include "dem-service/slug/preview.hpp"
 #include "participant/hello.hpp"
 
 namespace grainstep::dem::native {

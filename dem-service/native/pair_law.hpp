@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem-service/pair/batch.hpp"
-#include "dem-service/slug_model.hpp"
+#include "dem-service/slug/model.hpp"
 
 namespace grainstep::dem::native {
 

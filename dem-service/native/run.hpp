@@ -15,7 +15,7 @@
 #include "dem-service/native/flight.hpp"
 #include "dem-service/native/neighbours.hpp"
 #include "dem-service/native/pair_law.hpp"
-#include "dem-service/step_driver.hpp"
+#include "dem-service/slug/step_driver.hpp"
 
 namespace grainstep::dem::native {
 

@@ -15,10 +15,10 @@
 #include <span>
 #include <vector>
 
+#include "dem-service/law/pair_energy.hpp"
 #include "dem-service/pair/batch.hpp"
 #include "dem-service/pair/outside_forces.hpp"
 #include "dem-service/pair/pair.hpp"
-#include "dem-service/pair_energy.hpp"
 
 namespace grainstep::dem {
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <contact/contact_law.hpp>
-#include <dem-service/pair_energy.hpp>
+#include <dem-service/law/pair_energy.hpp>
 
 namespace LAMMPS_NS {
 class Atom;

@@ -2,10 +2,10 @@
 /// LAMMPS, so that no program may hold both.
 #pragma once
 
-#include <dem-service/exchange.hpp>
-#include <dem-service/slug_layout.hpp>
-#include <dem-service/slug_model.hpp>
-#include <dem-service/step_driver.hpp>
+#include <dem-service/slug/exchange.hpp>
+#include <dem-service/slug/layout.hpp>
+#include <dem-service/slug/model.hpp>
+#include <dem-service/slug/step_driver.hpp>
 #include <string>
 #include <vector>
 

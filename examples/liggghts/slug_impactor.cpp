@@ -2,10 +2,10 @@
 
 #include <base/error.hpp>
 #include <contact/moving_surface.hpp>
-#include <dem-service/exchange.hpp>
-#include <dem-service/preview.hpp>
-#include <dem-service/slug_layout.hpp>
-#include <dem-service/step_driver.hpp>
+#include <dem-service/slug/exchange.hpp>
+#include <dem-service/slug/layout.hpp>
+#include <dem-service/slug/preview.hpp>
+#include <dem-service/slug/step_driver.hpp>
 #include <limits>
 #include <participant/hello.hpp>
 #include <surface/disc_overlap.hpp>

@@ -2,7 +2,7 @@
 /// would have the same file.
 #pragma once
 
-#include <dem-service/slug_model.hpp>
+#include <dem-service/slug/model.hpp>
 #include <memory>
 #include <participant/backend.hpp>
 #include <string>

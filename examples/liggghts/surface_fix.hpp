@@ -5,8 +5,8 @@
 #include <liggghts/fix.h>
 
 #include <contact/contact_law.hpp>
-#include <dem-service/exchange.hpp>
-#include <dem-service/step_driver.hpp>
+#include <dem-service/slug/exchange.hpp>
+#include <dem-service/slug/step_driver.hpp>
 #include <optional>
 #include <vector>
 

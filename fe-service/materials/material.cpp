@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "declare/declaration.hpp"
+#include "declare/suggest.hpp"
 #include "scene/core.hpp"
-#include "scene/declaration.hpp"
-#include "scene/suggest.hpp"
 
 namespace grainstep::fe {
 
@@ -69,10 +69,10 @@ std::vector<std::string> layer_words() { return words(Laws{}); }
 
 Material make_material(const scene::Structure& structure, int index) {
   const int number = static_cast<int>(structure.layers(index).material());
-  const std::string word = scene::word_for(*scene::Layer::Material_descriptor(), number);
+  const std::string word = declare::word_for(*scene::Layer::Material_descriptor(), number);
   if (const auto found = make(Laws{}, word, structure, index)) return *found;
   throw InputError(fmt::format("structure.layers[{}].material: grainstep-fe knows {}, found {}", index,
-                               scene::join_words(layer_words()),
+                               declare::join_words(layer_words()),
                                word.empty() ? fmt::format("value number {}", number) : word));
 }
 

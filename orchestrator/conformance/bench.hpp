@@ -8,7 +8,7 @@
 
 #include "base/temporary_directory.hpp"
 #include "grainstep/scene.pb.h"
-#include "orchestrator/peer.hpp"
+#include "orchestrator/session/peer.hpp"
 #include "process/child_process.hpp"
 #include "transport/zmq_channel.hpp"
 

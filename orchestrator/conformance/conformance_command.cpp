@@ -4,11 +4,11 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "declare/suggest.hpp"
 #include "orchestrator/conformance/trial.hpp"
 #include "process/launch.hpp"
 #include "scene/load.hpp"
 #include "scene/needs.hpp"
-#include "scene/suggest.hpp"
 
 namespace grainstep::conformance {
 namespace {
@@ -66,8 +66,8 @@ void check_only(const std::vector<std::string>& only, const std::vector<Trial>& 
   for (const Trial& trial : trials) names.emplace_back(trial.name);
   for (const std::string& name : only) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    throw InputError("--only " + name + ": no such clause" + scene::hint(name, names) +
-                     " Clauses: " + scene::join_words(names));
+    throw InputError("--only " + name + ": no such clause" + declare::hint(name, names) +
+                     " Clauses: " + declare::join_words(names));
   }
 }
 

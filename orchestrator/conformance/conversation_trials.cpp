@@ -2,9 +2,9 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "orchestrator/check_ready.hpp"
 #include "orchestrator/conformance/played.hpp"
 #include "orchestrator/conformance/trial.hpp"
+#include "orchestrator/session/check_ready.hpp"
 #include "scene/load.hpp"
 
 namespace grainstep::conformance {

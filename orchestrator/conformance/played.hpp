@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "orchestrator/check_report.hpp"
 #include "orchestrator/conformance/bench.hpp"
+#include "orchestrator/session/check_report.hpp"
 
 namespace grainstep::conformance {
 

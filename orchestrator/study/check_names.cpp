@@ -2,9 +2,9 @@
 #include <cctype>
 #include <set>
 
-#include "orchestrator/summary.hpp"
-#include "scene/suggest.hpp"
-#include "study/names.hpp"
+#include "declare/suggest.hpp"
+#include "orchestrator/record/summary.hpp"
+#include "orchestrator/study/names.hpp"
 
 namespace grainstep::study {
 namespace {
@@ -127,11 +127,11 @@ class Checker {
   }
 
   void complain(const std::string& path, const std::string& text) {
-    complaints_.add(scene::origin_of(plan_.tree, path), path, text);
+    complaints_.add(declare::origin_of(plan_.tree, path), path, text);
   }
 
   [[nodiscard]] std::string place_hint(const std::string& where) const {
-    return scene::hint(where, {places_.begin(), places_.end()});
+    return declare::hint(where, {places_.begin(), places_.end()});
   }
 
   void place(const std::string& path, const std::string& where) {
@@ -149,7 +149,7 @@ class Checker {
           complain(path, "'" + name +
                              "' is no column above, no key of summary.json, no number of the scene and no dataset "
                              "(series.*, ledger.*, profiles.*, timings.*)" +
-                             scene::hint(name, known_));
+                             declare::hint(name, known_));
         }
       });
     } catch (const InputError& error) {

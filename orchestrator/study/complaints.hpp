@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "scene/problems.hpp"
+#include "declare/problems.hpp"
 
 namespace grainstep::study {
 
 class Complaints {
  public:
-  void add(const scene::Origin& origin, const std::string& path, const std::string& text) {
-    add(scene::problem_line(origin, path, text));
+  void add(const declare::Origin& origin, const std::string& path, const std::string& text) {
+    add(declare::problem_line(origin, path, text));
   }
 
   /// An error's text; its lines are separate problems.

@@ -1,4 +1,4 @@
-#include "study/execute.hpp"
+#include "orchestrator/study/execute.hpp"
 
 #include <algorithm>
 #include <list>
@@ -7,16 +7,16 @@
 #include <numeric>
 
 #include "base/error.hpp"
-#include "orchestrator/ending.hpp"
-#include "orchestrator/event_loop.hpp"
-#include "orchestrator/interrupted.hpp"
-#include "orchestrator/run_facts.hpp"
+#include "orchestrator/command/ending.hpp"
+#include "orchestrator/process/interrupted.hpp"
+#include "orchestrator/record/run_facts.hpp"
+#include "orchestrator/session/event_loop.hpp"
+#include "orchestrator/study/study_progress.hpp"
 #include "process/child_process.hpp"
 #include "process/interrupt.hpp"
 #include "process/launch.hpp"
 #include "results/atomic_file.hpp"
 #include "results/run_directory.hpp"
-#include "study/study_progress.hpp"
 
 namespace grainstep::study {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "orchestrator/progress.hpp"
-#include "study/outcome.hpp"
-#include "study/plan.hpp"
+#include "orchestrator/record/progress.hpp"
+#include "orchestrator/study/outcome.hpp"
+#include "orchestrator/study/plan.hpp"
 
 namespace grainstep::study {
 

@@ -1,4 +1,4 @@
-#include "study/expression.hpp"
+#include "orchestrator/study/expression.hpp"
 
 #include <cctype>
 #include <charconv>
@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "scene/suggest.hpp"
-#include "study/functions.hpp"
+#include "declare/suggest.hpp"
+#include "orchestrator/study/functions.hpp"
 
 namespace grainstep::study {
 
@@ -173,8 +173,8 @@ class Parser {
     if (node->function == nullptr) {
       std::vector<std::string> known = {"in"};
       for (const Function& f : functions()) known.push_back(f.name);
-      throw InputError("'" + text_ + "': unknown function '" + node->name + "'" + scene::hint(node->name, known) +
-                       " Known: " + scene::join_words(known));
+      throw InputError("'" + text_ + "': unknown function '" + node->name + "'" + declare::hint(node->name, known) +
+                       " Known: " + declare::join_words(known));
     }
     do {
       node->parts.push_back(sum());

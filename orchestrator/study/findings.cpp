@@ -1,4 +1,4 @@
-#include "study/findings.hpp"
+#include "orchestrator/study/findings.hpp"
 
 #include <cmath>
 #include <set>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/names.hpp"
+#include "orchestrator/study/names.hpp"
 
 namespace grainstep::study {
 

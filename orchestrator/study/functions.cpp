@@ -1,4 +1,4 @@
-#include "study/functions.hpp"
+#include "orchestrator/study/functions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/expression.hpp"
+#include "orchestrator/study/expression.hpp"
 
 namespace grainstep::study {
 

@@ -1,14 +1,14 @@
-#include "study/names.hpp"
+#include "orchestrator/study/names.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
 
-#include "orchestrator/summary.hpp"
+#include "declare/declaration.hpp"
+#include "orchestrator/record/summary.hpp"
 #include "results/hdf5.hpp"
 #include "results/run_directory.hpp"
-#include "scene/declaration.hpp"
 
 namespace grainstep::study {
 namespace {

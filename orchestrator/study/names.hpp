@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "study/complaints.hpp"
-#include "study/expression.hpp"
-#include "study/outcome.hpp"
+#include "orchestrator/study/complaints.hpp"
+#include "orchestrator/study/expression.hpp"
+#include "orchestrator/study/outcome.hpp"
 
 namespace grainstep::study {
 

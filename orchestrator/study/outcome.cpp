@@ -1,12 +1,12 @@
-#include "study/outcome.hpp"
+#include "orchestrator/study/outcome.hpp"
 
 #include <map>
 #include <set>
 #include <system_error>
 
 #include "base/error.hpp"
-#include "orchestrator/run_facts.hpp"
-#include "orchestrator/summary.hpp"
+#include "orchestrator/record/run_facts.hpp"
+#include "orchestrator/record/summary.hpp"
 #include "results/run_directory.hpp"
 
 namespace grainstep::study {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "study/plan.hpp"
+#include "orchestrator/study/plan.hpp"
 
 namespace grainstep::study {
 

@@ -1,11 +1,11 @@
-#include "study/page.hpp"
+#include "orchestrator/study/page.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "orchestrator/summary.hpp"
+#include "orchestrator/record/summary.hpp"
 #include "results/atomic_file.hpp"
 #include "results/hdf5.hpp"
 #include "results/run_directory.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "study/tables.hpp"
+#include "orchestrator/study/tables.hpp"
 
 namespace grainstep::study {
 

@@ -1,15 +1,15 @@
-#include "study/plan.hpp"
+#include "orchestrator/study/plan.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <set>
 #include <utility>
 
-#include "orchestrator/participants.hpp"
-#include "orchestrator/summary.hpp"
+#include "orchestrator/process/participants.hpp"
+#include "orchestrator/record/summary.hpp"
+#include "orchestrator/study/complaints.hpp"
+#include "orchestrator/study/names.hpp"
 #include "scene/load.hpp"
-#include "study/complaints.hpp"
-#include "study/names.hpp"
 
 namespace grainstep::study {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::size_t most_points = 100'000;
 struct Draft {
   std::string name;
   std::string scene;  ///< path of the key that names it: "scene", "series.0.scene", ...
-  std::vector<scene::Override> set;
+  std::vector<declare::Override> set;
   bool is_long = false;
 };
 
@@ -36,9 +36,9 @@ class Expander {
   }
 
  private:
-  [[nodiscard]] scene::Origin origin(const std::string& path) const { return scene::origin_of(plan_.tree, path); }
+  [[nodiscard]] declare::Origin origin(const std::string& path) const { return declare::origin_of(plan_.tree, path); }
 
-  void append(std::vector<scene::Override>& set, const google::protobuf::RepeatedPtrField<std::string>& texts,
+  void append(std::vector<declare::Override>& set, const google::protobuf::RepeatedPtrField<std::string>& texts,
               const std::string& path) const {
     for (int i = 0; i < texts.size(); ++i) {
       set.push_back({.text = texts[i], .origin = origin(path + "." + std::to_string(i))});
@@ -120,7 +120,7 @@ class Expander {
       unique(point_names_, slug(draft.name), "series." + std::to_string(index), "point", draft.name);
       point.directory /= slug(draft.name);
     }
-    for (const scene::Override& one : draft.set) point.set.push_back(one.text);
+    for (const declare::Override& one : draft.set) point.set.push_back(one.text);
     point.is_long = draft.is_long;
     prepare(point, draft);
     plan_.points.push_back(std::move(point));
@@ -128,10 +128,10 @@ class Expander {
 
   /// Relative to the file that says it.
   [[nodiscard]] fs::path scene_file(const std::string& path) const {
-    const scene::Tree* node = &plan_.tree;
+    const declare::Tree* node = &plan_.tree;
     for (std::size_t begin = 0; node != nullptr && begin <= path.size();) {
       const std::size_t end = std::min(path.find('.', begin), path.size());
-      node = scene::child(*node, path.substr(begin, end - begin));
+      node = declare::child(*node, path.substr(begin, end - begin));
       begin = end + 1;
     }
     return (fs::path(origin(path).source).parent_path() / (node == nullptr ? "" : node->scalar)).lexically_normal();
@@ -148,7 +148,7 @@ class Expander {
         point.preparation = orchestrator::prepare_unasked(std::move(scene), options_);
         ask(point);
       } catch (const InputError& error) {  // of a participant, which knows no files
-        throw InputError(scene::problem_line(origin(draft.scene), "point '" + point.id + "'", error.what()));
+        throw InputError(declare::problem_line(origin(draft.scene), "point '" + point.id + "'", error.what()));
       }
     } catch (const InputError& error) {
       return complaints_.add(error.what());

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "declare/tree.hpp"
 #include "grainstep/study.pb.h"
-#include "orchestrator/preparation.hpp"
-#include "scene/tree.hpp"
+#include "orchestrator/command/preparation.hpp"
 
 namespace grainstep::study {
 
@@ -26,7 +26,7 @@ struct PlannedPoint {
 struct Plan {
   std::filesystem::path file;
   Study study;
-  scene::Tree tree;  ///< where everything was written
+  declare::Tree tree;  ///< where everything was written
   std::vector<PlannedPoint> points;
 };
 

@@ -1,4 +1,4 @@
-#include "study/study_command.hpp"
+#include "orchestrator/study/study_command.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,11 +7,11 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "orchestrator/study/execute.hpp"
+#include "orchestrator/study/page.hpp"
 #include "process/child_process.hpp"
 #include "process/launch.hpp"
 #include "results/directory_lock.hpp"
-#include "study/execute.hpp"
-#include "study/page.hpp"
 
 namespace grainstep::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/study_progress.hpp"
+#include "orchestrator/study/study_progress.hpp"
 
 #include <algorithm>
 #include <cstdio>

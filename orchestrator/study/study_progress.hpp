@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "orchestrator/progress.hpp"
+#include "orchestrator/record/progress.hpp"
 #include "transport/channel.hpp"
 
 namespace grainstep::study {

@@ -1,12 +1,12 @@
-#include "study/tables.hpp"
+#include "orchestrator/study/tables.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/number_text.hpp"
-#include "orchestrator/summary.hpp"
+#include "declare/declaration.hpp"
+#include "orchestrator/record/summary.hpp"
 #include "results/atomic_file.hpp"
-#include "scene/declaration.hpp"
 
 namespace grainstep::study {
 namespace {
@@ -72,7 +72,7 @@ void append_vertices(std::string& out, const std::string& label, const std::stri
   }
 }
 
-std::string word(const google::protobuf::EnumDescriptor& type, int number) { return scene::word_for(type, number); }
+std::string word(const google::protobuf::EnumDescriptor& type, int number) { return declare::word_for(type, number); }
 
 Json plot_json(const Report& report, const Plot& plot) {
   Json out = {{"name", plot.name()},

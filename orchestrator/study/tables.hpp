@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "study/findings.hpp"
+#include "orchestrator/study/findings.hpp"
 
 namespace grainstep::study {
 

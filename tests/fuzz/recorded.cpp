@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "honest_peer.hpp"
-#include "orchestrator/session.hpp"
+#include "orchestrator/session/session.hpp"
 #include "participant/serve.hpp"
 #include "transport/in_process_channel.hpp"
 

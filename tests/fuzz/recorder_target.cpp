@@ -1,7 +1,7 @@
 /// @file The same session, recorded: ledgers, guards, results.h5 and ParaView's files, written as in a run. TMPDIR says
 /// where.
 #include "base/temporary_directory.hpp"
-#include "orchestrator/recorder.hpp"
+#include "orchestrator/record/recorder.hpp"
 #include "scene/groups.hpp"
 #include "session_trial.hpp"
 #include "target.hpp"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "orchestrator/session.hpp"
+#include "orchestrator/session/session.hpp"
 #include "script.pb.h"
 
 namespace grainstep::fuzz {

@@ -14,8 +14,14 @@ DOCKERFILE = re.sub(r"\\\n", " ", (ROOT / "docker/Dockerfile").read_text())
 INSTRUCTIONS = [line.split(None, 1) for line in DOCKERFILE.splitlines() if line and not line.startswith("#")]
 COMPOSITIONS = {name: yaml.safe_load((ROOT / "docker" / name).read_text())
                 for name in ("compose.yaml", "compose-python-beam.yaml")}
+# As compose merges what is given after another file with it.
+CHANGES = yaml.safe_load((ROOT / "docker/compose-grains.yaml").read_text())["services"]
+COMPOSITIONS["compose-grains.yaml"] = {
+    **COMPOSITIONS["compose.yaml"],
+    "services": {service: {**description, **CHANGES.get(service, {})}
+                 for service, description in COMPOSITIONS["compose.yaml"]["services"].items()}}
 # Where the options of a program are declared.
-OPTIONS = {"orchestrator": "orchestrator/options.cpp", "impactor": "common/participant/program.cpp",
+OPTIONS = {"orchestrator": "orchestrator/command/command_line.cpp", "impactor": "common/participant/program.cpp",
            "structure": "common/participant/program.cpp", "beam": "python/grainstep/program.py"}
 
 
@@ -178,10 +184,10 @@ class Compositions(unittest.TestCase):
                          [word for i, word in enumerate(words(beam["orchestrator"])) if i != at])
 
     def test_the_tool_runs_all_of_them(self):
-        files = {pathlib.Path(file).name for file, _ in tool().RUNS.values()}
-        self.assertEqual(files, set(COMPOSITIONS))
-        for name, (file, _) in tool().RUNS.items():
-            command = words(COMPOSITIONS[pathlib.Path(file).name]["services"]["orchestrator"])
+        runs = tool().RUNS
+        self.assertEqual({file for files, *_ in runs.values() for file in files}, set(COMPOSITIONS))
+        for name, (files, *_) in runs.items():
+            command = words(COMPOSITIONS[files[-1]]["services"]["orchestrator"])
             self.assertEqual(value_of("--out", command), f"/run-data/{name}")
 
 

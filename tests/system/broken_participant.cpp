@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "dem-service/impactor.hpp"
+#include "dem-service/lammps/impactor.hpp"
 #include "fe-service/impactor.hpp"
 #include "fe-service/structure.hpp"
 #include "participant/program.hpp"

@@ -6,12 +6,12 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "dem-service/impactor.hpp"
+#include "dem-service/lammps/impactor.hpp"
 #include "dem-service/native/impactor.hpp"
 #include "fe-service/impactor.hpp"
 #include "fe-service/structure.hpp"
-#include "orchestrator/conduct.hpp"
-#include "orchestrator/preparation.hpp"
+#include "orchestrator/command/conduct.hpp"
+#include "orchestrator/command/preparation.hpp"
 #include "participant/serve.hpp"
 #include "scene/load.hpp"
 #include "scene/needs.hpp"

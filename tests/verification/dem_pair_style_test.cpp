@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../unit/dem-service/engine_rig.hpp"
-#include "dem-service/pair/style.hpp"
+#include "dem-service/lammps/pair_style.hpp"
 
 namespace grainstep::dem {
 namespace {

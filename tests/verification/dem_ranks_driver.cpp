@@ -5,7 +5,7 @@
 
 #include "../unit/dem-service/slice_rig.hpp"
 #include "base/error.hpp"
-#include "dem-service/impactor.hpp"
+#include "dem-service/lammps/impactor.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "dem-service/damping.hpp"
+#include "dem-service/law/damping.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "dem-service/lammps/slug_engine.hpp"
 #include "dem-service/mpi_start.hpp"
 #include "dem-service/native/engine.hpp"
 #include "dem-service/native/impactor.hpp"
-#include "dem-service/slug_engine.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::dem::rig {

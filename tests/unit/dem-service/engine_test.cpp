@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "dem-service/impactor.hpp"
+#include "dem-service/lammps/impactor.hpp"
 #include "engine_rig.hpp"
 
 namespace grainstep::dem {

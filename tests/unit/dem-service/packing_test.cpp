@@ -1,4 +1,4 @@
-#include "dem-service/packing.hpp"
+#include "dem-service/slug/packing.hpp"
 
 #include "contact/rest_on.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem-service/damping.hpp"
-#include "dem-service/plane_contacts.hpp"
+#include "dem-service/law/damping.hpp"
+#include "dem-service/law/plane_contacts.hpp"
 
 namespace grainstep::dem {
 namespace {

@@ -1,4 +1,4 @@
-#include "dem-service/preview.hpp"
+#include "dem-service/slug/preview.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "dem-service/slug_model.hpp"
+#include "dem-service/slug/model.hpp"
 #include "slice_rig.hpp"
 
 namespace grainstep::dem {

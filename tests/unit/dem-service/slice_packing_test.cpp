@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "dem-service/packing.hpp"
+#include "dem-service/slug/packing.hpp"
 
 namespace grainstep::dem {
 namespace {

@@ -1,5 +1,5 @@
 // Where a slug stands at the start: its block turned, shifted, held off, stretched; and the walls that confine it.
-#include "dem-service/slug_layout.hpp"
+#include "dem-service/slug/layout.hpp"
 
 #include <gmock/gmock.h>
 

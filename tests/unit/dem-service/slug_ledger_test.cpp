@@ -1,7 +1,7 @@
 // A slug against rigid walls: the ledgers close.
 #include <gtest/gtest.h>
 
-#include "dem-service/slug_report.hpp"
+#include "dem-service/slug/report.hpp"
 #include "engine_rig.hpp"
 
 namespace grainstep::dem {

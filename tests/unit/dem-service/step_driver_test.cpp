@@ -1,5 +1,5 @@
 // What the driver of a step asks of its guards: one particle by hand, no LAMMPS.
-#include "dem-service/step_driver.hpp"
+#include "dem-service/slug/step_driver.hpp"
 
 #include <gmock/gmock.h>
 

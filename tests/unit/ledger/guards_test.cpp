@@ -84,7 +84,7 @@ TEST(MessageNumbers, FindTheElementOfAList) {
 // What one would change of a foam is not what one would change of particles.
 TEST(Guards, AdviseByTheImpactor) {
   auto state = good();
-  state.foam = true;
+  state.impactor = scene::Impactor::TYPE_FOAM;
   state.overlap = 0.75;
   EXPECT_THAT(
       violation(guards(), state).value(),

@@ -1,5 +1,5 @@
 /// The thread between the lock step and the recorder: nothing is lost, nothing is reordered, failures come back.
-#include "orchestrator/background_observer.hpp"
+#include "orchestrator/record/background_observer.hpp"
 
 #include <gmock/gmock.h>
 

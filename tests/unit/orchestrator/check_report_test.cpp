@@ -1,5 +1,5 @@
 // What a participant may put into its reports and snapshots: names become datasets, numbers become sizes and indices.
-#include "orchestrator/check_report.hpp"
+#include "orchestrator/session/check_report.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 /// A whole run over channels to threads, and what is left of it when something happens that nobody foresaw.
-#include "orchestrator/conduct.hpp"
+#include "orchestrator/command/conduct.hpp"
 
 #include <gmock/gmock.h>
 

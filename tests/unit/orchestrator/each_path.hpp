@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "orchestrator/session.hpp"
+#include "orchestrator/session/session.hpp"
 
 namespace grainstep::orchestrator {
 

@@ -1,5 +1,5 @@
 /// The one place to wait: sources come and go while it waits, and none that has gone costs anything.
-#include "orchestrator/event_loop.hpp"
+#include "orchestrator/session/event_loop.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "orchestrator/fidelity.hpp"
+#include "orchestrator/command/fidelity.hpp"
 
 #include <gtest/gtest.h>
 

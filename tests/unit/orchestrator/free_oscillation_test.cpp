@@ -1,5 +1,5 @@
 /// The permanent deflection, of signals whose mean is known.
-#include "orchestrator/free_oscillation.hpp"
+#include "orchestrator/record/free_oscillation.hpp"
 
 #include <gtest/gtest.h>
 

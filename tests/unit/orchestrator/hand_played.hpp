@@ -10,8 +10,8 @@
 #include <tuple>
 #include <vector>
 
-#include "orchestrator/listener.hpp"
-#include "orchestrator/step_observer.hpp"
+#include "orchestrator/session/listener.hpp"
+#include "orchestrator/session/step_observer.hpp"
 #include "transport/in_process_channel.hpp"
 #include "wire/message_channel.hpp"
 

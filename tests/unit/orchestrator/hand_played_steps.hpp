@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "each_path.hpp"
 #include "hand_played.hpp"
-#include "orchestrator/lock_step.hpp"
+#include "orchestrator/session/lock_step.hpp"
 #include "patience.hpp"
 
 namespace grainstep::orchestrator {

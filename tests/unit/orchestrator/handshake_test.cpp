@@ -1,5 +1,5 @@
 // The conversation before the first step: who is there, what was prepared, and how long each is waited for.
-#include "orchestrator/session.hpp"
+#include "orchestrator/session/session.hpp"
 
 #include <gmock/gmock.h>
 

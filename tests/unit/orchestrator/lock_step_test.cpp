@@ -1,4 +1,4 @@
-#include "orchestrator/lock_step.hpp"
+#include "orchestrator/session/lock_step.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // What does not fit is refused before anything is started.
-#include "orchestrator/memory.hpp"
+#include "orchestrator/command/memory.hpp"
 
 #include <gmock/gmock.h>
 

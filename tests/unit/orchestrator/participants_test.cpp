@@ -1,5 +1,5 @@
 // Where participants are expected: the part of their wiring that can be seen without starting them.
-#include "orchestrator/participants.hpp"
+#include "orchestrator/process/participants.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "orchestrator/progress.hpp"
+#include "orchestrator/record/progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/temporary_directory.hpp"
-#include "orchestrator/recorder.hpp"
+#include "orchestrator/record/recorder.hpp"
 
 namespace grainstep::orchestrator {
 namespace {

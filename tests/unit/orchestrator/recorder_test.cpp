@@ -1,5 +1,5 @@
 /// The recorder, the summary and the rules about a failed run, with reports made by hand.
-#include "orchestrator/recorder.hpp"
+#include "orchestrator/record/recorder.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/temporary_directory.hpp"
-#include "orchestrator/summary.hpp"
+#include "orchestrator/record/summary.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::orchestrator {

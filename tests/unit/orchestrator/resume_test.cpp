@@ -1,13 +1,13 @@
 // What must be the same for a run to go on, and when checkpoints are asked for.
-#include "orchestrator/resume.hpp"
+#include "orchestrator/record/resume.hpp"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 
 #include "base/error.hpp"
-#include "orchestrator/interrupted.hpp"
-#include "orchestrator/save_schedule.hpp"
+#include "orchestrator/process/interrupted.hpp"
+#include "orchestrator/process/save_schedule.hpp"
 
 namespace grainstep::orchestrator {
 namespace {

@@ -1,5 +1,5 @@
 // States of both sides, put together while the lock step goes on.
-#include "orchestrator/saving.hpp"
+#include "orchestrator/session/saving.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "orchestrator/session.hpp"
+#include "orchestrator/session/session.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "orchestrator/step_plan.hpp"
+#include "orchestrator/session/step_plan.hpp"
 
 #include <gmock/gmock.h>
 

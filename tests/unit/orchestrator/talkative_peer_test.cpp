@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "hand_played.hpp"
-#include "orchestrator/session.hpp"
+#include "orchestrator/session/session.hpp"
 #include "patience.hpp"
 
 namespace grainstep::orchestrator {

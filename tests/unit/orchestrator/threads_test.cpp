@@ -1,4 +1,4 @@
-#include "orchestrator/threads.hpp"
+#include "orchestrator/process/threads.hpp"
 
 #include <gtest/gtest.h>
 

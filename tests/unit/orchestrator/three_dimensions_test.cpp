@@ -7,8 +7,9 @@
 #include <thread>
 
 #include "base/temporary_directory.hpp"
+#include "declare/write.hpp"
 #include "fake_solids.hpp"
-#include "orchestrator/conduct.hpp"
+#include "orchestrator/command/conduct.hpp"
 #include "participant/serve.hpp"
 #include "patience.hpp"
 #include "results/hdf5.hpp"
@@ -39,7 +40,7 @@ class ThreeDimensions : public ::testing::Test {
     scene.mutable_guards()->set_momentum_error(1e-12);
     scene.mutable_guards()->set_overlap(0.5);
     preparation_.groups = scene::groups(scene);
-    preparation_.yaml = scene::to_yaml(scene);
+    preparation_.yaml = declare::to_yaml(scene);
     const results::DirectoryLock lock = directory_.prepare(results::Existing::refuse);
     auto [impactor, impactor_far] = transport::make_in_process_pair({.first = "orchestrator", .second = "impactor"});
     auto [structure, structure_far] = transport::make_in_process_pair({.first = "orchestrator", .second = "structure"});

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "declare/write.hpp"
 #include "scene_files.hpp"
 
 namespace grainstep::scene {
@@ -22,7 +23,7 @@ TEST(BulkViscosity, IsOffUnlessAskedFor) {
   EXPECT_TRUE(scene.structure().bulk_viscosity().has_linear());  // so that the resolved scene shows it
   EXPECT_EQ(scene.structure().bulk_viscosity().linear(), 0.0);
   EXPECT_EQ(scene.structure().bulk_viscosity().quadratic(), 0.0);
-  EXPECT_THAT(to_yaml(scene), testing::HasSubstr("bulk_viscosity:"));
+  EXPECT_THAT(declare::to_yaml(scene), testing::HasSubstr("bulk_viscosity:"));
 }
 
 TEST(BulkViscosity, AStepAboveTheYieldStrengthStrikesSuddenly) {

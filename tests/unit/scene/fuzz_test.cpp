@@ -5,6 +5,7 @@
 #include <random>
 #include <sstream>
 
+#include "declare/write.hpp"
 #include "scene_files.hpp"
 
 namespace grainstep::scene {
@@ -96,7 +97,7 @@ class Mutator {
 bool loads(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   try {
     const Scene scene = load_scene(path, overrides);
-    EXPECT_FALSE(to_yaml(scene).empty());
+    EXPECT_FALSE(declare::to_yaml(scene).empty());
     return true;
   } catch (const InputError& error) {
     EXPECT_STRNE(error.what(), "");
@@ -142,7 +143,7 @@ TEST(Fuzz, ResolvedScenesRoundTripUnderRandomValues) {
     text.precision(17);
     text << "structure.half_span=" << value;
     const Scene scene = load_text(minimal_scene, {text.str()});
-    EXPECT_EQ(load_text(to_yaml(scene)).structure().half_span(), value);
+    EXPECT_EQ(load_text(declare::to_yaml(scene)).structure().half_span(), value);
   }
 }
 

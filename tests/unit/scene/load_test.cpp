@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "declare/write.hpp"
 #include "scene_files.hpp"
 
 namespace grainstep::scene {
@@ -85,16 +86,16 @@ TEST(ToYaml, ReadsBackAsTheSameScene) {
       {"impactor.slug.seed=18446744073709551615", "guards.momentum_error=1e-300", "structure.extent=full"}};
   for (const auto& overrides : variants) {
     const Scene scene = load_text(minimal_scene, overrides);
-    const std::string text = to_yaml(scene);
+    const std::string text = declare::to_yaml(scene);
     const Scene again = load_text(text);
     EXPECT_TRUE(MessageDifferencer::Equals(scene, again)) << text;
-    EXPECT_EQ(text, to_yaml(again));
+    EXPECT_EQ(text, declare::to_yaml(again));
     EXPECT_EQ(scene_hash(scene), scene_hash(again));
   }
 }
 
 TEST(ToYaml, WritesUnits) {
-  const std::string text = to_yaml(load_text(minimal_scene));
+  const std::string text = declare::to_yaml(load_text(minimal_scene));
   EXPECT_NE(text.find("      diameter: 0.0002 m\n"), std::string::npos) << text;
   EXPECT_NE(text.find("  layers:\n    - material: dh36\n      thickness: 0.05 m\n"), std::string::npos) << text;
   EXPECT_NE(text.find("steps:\n  impactor: auto\n  structure: auto\n"), std::string::npos) << text;

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/declaration.hpp"
+#include "declare/declaration.hpp"
 #include "scene_files.hpp"
 
 namespace grainstep::scene {
@@ -97,12 +97,12 @@ TEST(Usual, AContactStiffnessIsJudgedOverDepthOrDiameter) {
 void expect_words(const google::protobuf::Descriptor& section) {
   for (int i = 0; i < section.field_count(); ++i) {
     const auto& field = *section.field(i);
-    const options::Key& key = key_of(field);
+    const options::Key& key = declare::key_of(field);
     const bool ranged = key.has_usual_from() || key.has_usual_to();
     EXPECT_EQ(ranged, !key.usual_text().empty()) << field.full_name();
     EXPECT_TRUE(!ranged || field.cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) << field.full_name();
     EXPECT_TRUE(!key.has_usual_to() || key.usual_from() < key.usual_to()) << field.full_name();
-    if (field.message_type() != nullptr && !is_free(field)) expect_words(*field.message_type());
+    if (field.message_type() != nullptr && !declare::is_free(field)) expect_words(*field.message_type());
   }
 }
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "study/study_progress.hpp"
+#include "orchestrator/study/study_progress.hpp"
 
 namespace grainstep::study {
 namespace {

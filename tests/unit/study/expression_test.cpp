@@ -1,4 +1,4 @@
-#include "study/expression.hpp"
+#include "orchestrator/study/expression.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

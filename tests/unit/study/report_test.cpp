@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "study/page.hpp"
+#include "orchestrator/study/page.hpp"
 #include "study_files.hpp"
 
 namespace grainstep::study {

@@ -10,9 +10,9 @@
 
 #include "base/error.hpp"
 #include "base/temporary_directory.hpp"
-#include "orchestrator/summary.hpp"
-#include "study/outcome.hpp"
-#include "study/plan.hpp"
+#include "orchestrator/record/summary.hpp"
+#include "orchestrator/study/outcome.hpp"
+#include "orchestrator/study/plan.hpp"
 
 namespace grainstep::study {
 

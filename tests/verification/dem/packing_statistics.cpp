@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "../../unit/dem-service/engine_rig.hpp"
-#include "dem-service/packing.hpp"
+#include "dem-service/slug/packing.hpp"
 #include "support/verification_record.hpp"
 
 namespace grainstep::dem {
