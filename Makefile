@@ -76,7 +76,7 @@ sanitize: packages
 # FUZZ_RUNS: scripts for each target, times its share. FUZZ_OPTIONS='--page tests/fuzz/README.md' writes what was done into
 # the page, --keep adds to the corpus, --only NAME runs one target (tests/fuzz/README.md).
 FUZZ_RUNS ?= 20000
-FUZZ_TARGETS := $(addprefix fuzz-,frame checks session recorder participant structure impactor)
+FUZZ_TARGETS := $(addprefix fuzz-,frame checks session recorder participant structure impactor grains)
 fuzz:
 	@tools/install-packages build fuzz
 	@test -f build-fuzz/build.ninja || cmake --preset fuzz

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "dem-service/native/impactor.hpp"
 #include "fe-service/impactor.hpp"
 #include "fe-service/structure.hpp"
 #include "played_scene.hpp"
@@ -51,6 +52,25 @@ const std::vector<SmallScene> small_scenes{
       "impactor.foam.shock_width=0.3", "impactor.slug.half_width=0.04"},
      5e-6}};
 
+const std::vector<SmallScene> small_slugs{
+    {"slug",
+     "small/beam-monolithic.yaml",
+     {"structure.half_span=0.1", "structure.mesh.refinement=1", "impactor.slug.particle.diameter=4 mm",
+      "impactor.slug.half_width=0.02", "impactor.slug.height=0.04"}},
+    {"slug-mixed",
+     "small/beam-monolithic.yaml",
+     {"structure.half_span=0.1", "structure.mesh.refinement=1", "impactor.slug.particle.diameter=4 mm",
+      "impactor.slug.half_width=0.02", "impactor.slug.height=0.1", "impactor.slug.size_distribution.uniform.width=0.15",
+      "impactor.slug.surface_contact.tension_cutoff=true"}},
+    {"slug-confined",
+     "small/rigid-wall.yaml",
+     {"impactor.slug.particle.diameter=4 mm", "impactor.slug.half_width=0.02", "impactor.slug.height=0.04",
+      "impactor.slug.confined=true"}},
+    {"slug-plate",
+     "small/plate-monolithic.yaml",
+     {"structure.half_span=0.1", "structure.mesh.refinement=1", "impactor.slug.half_width=0.02",
+      "impactor.slug.height=0.03", "impactor.slug.slice_angle=20 deg"}}};
+
 class Corpus {
  public:
   explicit Corpus(fs::path home) : home_(std::move(home)) {}
@@ -84,6 +104,16 @@ void write_own(const fs::path& configs, const SmallScene& small, const Corpus& c
   corpus.write("impactor", small.name, said.to_impactor, 0);
   corpus.write("checks", std::string(small.name) + "-impactor", said.impactor, 0);
   corpus.write("checks", std::string(small.name) + "-structure", said.structure, 1);
+}
+
+/// The native particle engine in a scene of ours, over our structure.
+void write_grains(const fs::path& configs, const SmallScene& small, const Corpus& corpus) {
+  const scene::Scene scene = load(configs, small);
+  fe::Structure structure;
+  const auto engine = dem::native::make_impactor();
+  const fuzz::Recorded said =
+      fuzz::record({.scene = scene, .hash = fuzz::scene_hash, .end = small.end}, *engine, structure);
+  corpus.write("grains", small.name, said.to_impactor, 0);
 }
 
 /// Sessions about the scene that fuzzed sessions are about.
@@ -132,6 +162,10 @@ int main(int argc, char** argv) {
     for (const SmallScene& small : small_scenes) {
       std::printf("%s\n", small.name);
       write_own(argv[1], small, corpus);
+    }
+    for (const SmallScene& small : small_slugs) {
+      std::printf("%s\n", small.name);
+      write_grains(argv[1], small, corpus);
     }
     return 0;
   } catch (const std::exception& error) {
