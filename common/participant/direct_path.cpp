@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "transport/local_address.hpp"
 #include "transport/zmq_channel.hpp"
 
 namespace grainstep::participant {
@@ -88,6 +89,13 @@ class DirectDataPath final : public DataPath {
   wire::MessageChannel messages_;
 };
 
+/// An address where there is one: a name is not known everywhere, and not at every moment to a container's resolver.
+std::string reachable_host(const DirectOptions& options) {
+  if (const auto address = transport::local_address_towards(options.orchestrator)) return *address;
+  std::array<char, 256> host{};
+  return ::gethostname(host.data(), host.size() - 1) == 0 ? host.data() : "localhost";
+}
+
 [[noreturn]] void refuse(wire::Role role, const std::string& endpoint, const DirectOptions& options,
                          const std::string& why) {
   throw PeerError(other_side(role), "no direct connection over " + endpoint + " within " +
@@ -106,9 +114,7 @@ std::string DirectDoor::endpoint() const {
   std::string endpoint = channel_->endpoint();
   const std::string everywhere = "tcp://0.0.0.0:";
   if (!endpoint.starts_with(everywhere)) return endpoint;
-  std::array<char, 256> host{};
-  if (::gethostname(host.data(), host.size() - 1) != 0) return endpoint;
-  return std::string("tcp://") + host.data() + ":" + endpoint.substr(everywhere.size());
+  return "tcp://" + reachable_host(options_) + ":" + endpoint.substr(everywhere.size());
 }
 
 std::unique_ptr<DataPath> DirectDoor::open(WhileWaiting look) && {

@@ -21,6 +21,7 @@ struct DirectOptions {
   std::filesystem::path curve_dir = {};  ///< participant.key, which both sides share; empty: not encrypted
   bool allow_plain_tcp = false;
   double connect_deadline_s = 60.0;  ///< from Start until the other side is there
+  std::string orchestrator = {};     ///< its endpoint: who is reached from there listens on all interfaces
 };
 
 /// Where a structure listens, from before its Hello until its impactor has come.
@@ -32,7 +33,8 @@ class DirectDoor {
   DirectDoor& operator=(const DirectDoor&) = delete;
   ~DirectDoor();
 
-  /// What Hello says. Where the structure listens on all interfaces, this names the host.
+  /// What Hello says. Of all interfaces it names the one that leads to the orchestrator, or the host where that is
+  /// here.
   [[nodiscard]] std::string endpoint() const;
 
   /// Waits for the impactor; PeerError where it does not come.

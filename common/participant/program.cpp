@@ -61,8 +61,10 @@ std::optional<int> Program::parse(int argc, const char* const* argv) {
 
 ServeOptions Program::serving() const {
   ServeOptions out;
-  out.direct = {
-      .listen = connect_.data_listen, .curve_dir = connect_.curve_dir, .allow_plain_tcp = connect_.allow_plain_tcp};
+  out.direct = {.listen = connect_.data_listen,
+                .curve_dir = connect_.curve_dir,
+                .allow_plain_tcp = connect_.allow_plain_tcp,
+                .orchestrator = connect_.endpoint};
   return out;
 }
 

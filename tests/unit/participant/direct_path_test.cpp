@@ -14,6 +14,7 @@
 #include "one_node.hpp"
 #include "patience.hpp"
 #include "transport/curve.hpp"
+#include "transport/local_address.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -71,6 +72,25 @@ TEST_F(DirectPath, OnAllInterfacesNamesTheHost) {
   std::array<char, 256> host{};
   ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
   EXPECT_TRUE(door.endpoint().starts_with(std::string("tcp://") + host.data() + ":")) << door.endpoint();
+}
+
+// A name that the impactor's host does not know would be of no use.
+TEST_F(DirectPath, OnAllInterfacesNamesTheOneThatLeadsToTheOrchestrator) {
+  const std::string elsewhere = "tcp://192.0.2.1:5555";  // an address for documentation: nothing is sent
+  const auto own = transport::local_address_towards(elsewhere);
+  if (!own) GTEST_SKIP() << "this host has no route to anywhere";
+  DirectDoor door({.listen = "tcp://*:0", .allow_plain_tcp = true, .orchestrator = elsewhere});
+  EXPECT_TRUE(door.endpoint().starts_with("tcp://" + *own + ":")) << door.endpoint();
+  auto structure = opened(door);
+  static_cast<void>(connect_directly(door.endpoint(), {.listen = "", .allow_plain_tcp = true}, [] {}));
+  EXPECT_NE(structure.get(), nullptr);
+}
+
+TEST(LocalAddress, IsKnownOnlyTowardsOthers) {
+  for (const char* here :
+       {"tcp://127.0.0.1:5555", "tcp://localhost:5555", "ipc:///run/x", "tcp://", "tcp://:", "tcp://a b:1"}) {
+    EXPECT_EQ(transport::local_address_towards(here), std::nullopt) << here;
+  }
 }
 
 struct Stopped {};
