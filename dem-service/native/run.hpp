@@ -16,6 +16,7 @@
 #include "dem-service/native/neighbours.hpp"
 #include "dem-service/native/pair_law.hpp"
 #include "dem-service/slug/step_driver.hpp"
+#include "participant/resumed.hpp"
 
 namespace grainstep::dem::native {
 
@@ -52,7 +53,7 @@ class Run {
         neighbours_(sweeps_, allowance_, inner_allowance_),
         block_size_(native::block_size(grains_.count())),
         contacts_(pair_law(law_), features_of<D>(model), grains_, {grains_.count(), block_size_}),
-        state_(link.state()),
+        resumed_(participant::resumed(start, link)),
         exchange_(&link, MovingSurface(setup.surface()).node_count()),
         driver_(model, start, {.dt = dt_, .margin = model.diameter}, MovingSurface(setup.surface()), exchange_) {}
 
@@ -87,13 +88,13 @@ class Run {
  private:
   /// The step that is done when this returns: the start, or that at the end of which a state was saved.
   std::uint64_t begin() {
-    if (!state_) {
+    if (!resumed_) {
       rebuild(0);
       forces(0);
       return 0;
     }
-    base::restore(*this, *state_);
-    return (start_.first_window() - 1) * start_.impactor_steps();
+    base::restore(*this, resumed_->state);
+    return resumed_->window * start_.impactor_steps();
   }
 
   [[nodiscard]] double time_of(std::uint64_t step) const { return static_cast<double>(step) * dt_; }
@@ -276,7 +277,7 @@ class Run {
   Neighbours<D> neighbours_;
   std::int32_t block_size_;
   Contacts<D> contacts_;
-  std::optional<std::string_view> state_;  ///< of a run that continues
+  std::optional<participant::Resumed> resumed_;
   Exchange exchange_;
   StepDriver driver_;
 

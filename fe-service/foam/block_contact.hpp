@@ -33,6 +33,15 @@ class BlockContact {
   /// those of the evaluation to those of the body.
   void end_interval(const Body& body, const contact::MovingSurface& surface, double dt, double part);
 
+  /// What a step leaves for the next one. Where the nodes are, and how fast, is the body's.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive.fixed("springs", spring_);
+    archive.fixed("remembered", remembered_);
+    archive("contacts", contacts_);
+    archive("built", built_);
+  }
+
   [[nodiscard]] const contact::SurfaceContacts& contacts() const { return contacts_; }
   [[nodiscard]] double take_largest_overlap() { return contacts_.take_largest_overlap(); }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "fe-service/deformable.hpp"
 #include "fe-service/preview.hpp"
 #include "participant/hello.hpp"
+#include "participant/resumed.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::fe {
@@ -15,7 +17,7 @@ wire::Hello FoamImpactor::describe() const {
   wire::Hello hello = participant::hello(
       wire::IMPACTOR, std::string("grainstep-fe (foam projectile, ") + available_kernels().front()->name + ")",
       GRAINSTEP_VERSION, {2});
-  for (const char* capability : {"foam", "plane_strain", "axisymmetric"}) hello.add_capabilities(capability);
+  for (const char* capability : {"foam", "plane_strain", "axisymmetric", "state"}) hello.add_capabilities(capability);
   return hello;
 }
 
@@ -42,20 +44,26 @@ wire::Ready FoamImpactor::prepare(const wire::Setup& setup) {
   return ready;
 }
 
-void FoamImpactor::begin(const wire::Start& start) {
+/// False: the run was over before it began.
+bool FoamImpactor::begin(const wire::Start& start, participant::ImpactorLink& link) {
   if (!(start.window() > 0.0) || start.impactor_steps() == 0)
     throw InputError("Start: window and impactor_steps must be above 0");
   window_length_ = start.window();
   steps_in_window_ = step_in_window_ = steps_needed_ = start.impactor_steps();
+  const auto resumed = participant::resumed(start, link);
+  if (!resumed) return true;
+  base::restore(*this, resumed->state);
+  return receive(link);
 }
 
 void FoamImpactor::run(const wire::Start& start, participant::ImpactorLink& link) {
-  begin(start);
+  if (!begin(start, link)) return;
   for (;;) {
     touch(link);
     internal_forces();
     move(link);
-    if (window_ == start.windows() && step_in_window_ == steps_in_window_) return;
+    if (at_end_of_window() && window_ == start.windows()) return;
+    if (at_end_of_window() && link.wants_state(window_)) link.send_state(base::saved(*this));
     if (!receive(link)) return;
   }
 }
@@ -64,7 +72,7 @@ void FoamImpactor::run(const wire::Start& start, participant::ImpactorLink& link
 void FoamImpactor::touch(participant::ImpactorLink& link) {
   const double weight = 0.5 * (step_before_ + next_step());
   contact_->evaluate(*body_, *surface_, step_before_, next_step(), weight, nodal_);
-  if (step_in_window_ < steps_in_window_) return;
+  if (!at_end_of_window()) return;
   wire::Forces forces;
   forces.set_window(window_);
   bool finite = true;
@@ -87,7 +95,7 @@ void FoamImpactor::internal_forces() {
   min_quality_ = result.min_quality;
   if (result.unconverged > 0) material_failed(*body_, progress());
   if (!(min_quality_ >= guards_.element_quality())) check_quality(*body_, guards_.element_quality(), progress());
-  if (step_in_window_ == steps_in_window_ && window_ % kCheckInterval == 0) check_block();
+  if (at_end_of_window() && window_ % kCheckInterval == 0) check_block();
 }
 
 void FoamImpactor::check_block() {
@@ -102,8 +110,7 @@ void FoamImpactor::check_block() {
 
 /// Velocities over t(k), what is to be said of it, and positions on to the next step's end.
 void FoamImpactor::move(participant::ImpactorLink& link) {
-  const bool at_end = step_in_window_ == steps_in_window_;
-  const participant::Due due = at_end ? link.due(window_) : participant::Due{};
+  const participant::Due due = at_end_of_window() ? link.due(window_) : participant::Due{};
   const bool wanted = due.report || due.snapshot;
   const Velocities before = wanted ? Velocities::of(*body_) : Velocities{};
   const double next = next_step();
@@ -131,7 +138,7 @@ void FoamImpactor::move(participant::ImpactorLink& link) {
 
 /// The surface at the end of the step that the block has just made. False: the run is over.
 bool FoamImpactor::receive(participant::ImpactorLink& link) {
-  if (step_in_window_ == steps_in_window_) {
+  if (at_end_of_window()) {
     const wire::Kinematics* message = link.surface(++window_);
     if (message == nullptr) return false;
     const auto expected = static_cast<int>(2 * surface_->node_count());

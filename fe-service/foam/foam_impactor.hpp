@@ -24,8 +24,29 @@ class FoamImpactor final : public participant::ImpactorBackend {
   [[nodiscard]] wire::Ready prepare(const wire::Setup& setup) override;
   void run(const wire::Start& start, participant::ImpactorLink& link) override;
 
+  /// What a window leaves for the next one.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive("body", *body_);
+    archive("surface", *surface_);
+    archive("contact", *contact_);
+    archive("stable step", stable_step_);
+    archive("window", window_);
+    archive("steps in it", steps_in_window_);
+    archive("of them done", step_in_window_);
+    archive("steps needed", steps_needed_);
+    archive("step before", step_before_);
+    archive("steps", steps_);
+    archive("last good time", last_good_time_);
+    archive("plastic work", plastic_work_);
+    archive("stored", stored_);
+    archive("quality", min_quality_);
+    archive("supports", supports_);
+  }
+
  private:
-  void begin(const wire::Start& start);
+  [[nodiscard]] bool begin(const wire::Start& start, participant::ImpactorLink& link);
+  [[nodiscard]] bool at_end_of_window() const { return step_in_window_ == steps_in_window_; }
   void touch(participant::ImpactorLink& link);
   void move(participant::ImpactorLink& link);
   [[nodiscard]] bool receive(participant::ImpactorLink& link);
@@ -34,9 +55,7 @@ class FoamImpactor final : public participant::ImpactorBackend {
   void report(const Velocities& before, const Velocities& at, Vec2 supports, participant::ImpactorLink& link);
   [[nodiscard]] Progress progress() const;
   [[nodiscard]] double step() const { return window_length_ / steps_in_window_; }
-  [[nodiscard]] double next_step() const {
-    return step_in_window_ == steps_in_window_ ? window_length_ / steps_needed_ : step();
-  }
+  [[nodiscard]] double next_step() const { return at_end_of_window() ? window_length_ / steps_needed_ : step(); }
 
   std::optional<FoamModel> model_;
   std::optional<Body> body_;

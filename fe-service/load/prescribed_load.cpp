@@ -2,18 +2,20 @@
 
 #include <algorithm>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "fe-service/solid.hpp"
 #include "fe-service/windows.hpp"
 #include "load/pressure_history.hpp"
 #include "participant/hello.hpp"
+#include "participant/resumed.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::fe {
 
 wire::Hello PrescribedLoad::describe() const {
   wire::Hello hello = participant::hello(wire::IMPACTOR, "grainstep-fe (prescribed load)", GRAINSTEP_VERSION, {2});
-  for (const char* capability : {"pressure", "none", "plane_strain", "axisymmetric"})
+  for (const char* capability : {"pressure", "none", "plane_strain", "axisymmetric", "state"})
     hello.add_capabilities(capability);
   return hello;
 }
@@ -92,25 +94,32 @@ void PrescribedLoad::take(const wire::Kinematics& surface) {
 void PrescribedLoad::run(const wire::Start& start, participant::ImpactorLink& link) {
   steps_ = start.impactor_steps();
   step_ = start.window() / steps_;
-  wire::Forces forces;
-  for (std::uint64_t window = 0; window <= start.windows(); ++window) {
+  const auto resumed = participant::resumed(start, link);
+  if (resumed) base::restore(*this, resumed->state);
+  for (std::uint64_t window = resumed ? resumed->window + 1 : 0; window <= start.windows(); ++window) {
     if (window > 0) {
       const wire::Kinematics* surface = link.surface(window);
       if (surface == nullptr) return;
       take(*surface);
     }
     evaluate(window);
-    forces.set_window(window);
-    forces.mutable_impulse()->Assign(impulse_.begin(), impulse_.end());
-    link.send(forces);
-    account(window);
-    const participant::Due due = link.due(window);
-    if (due.report) send_report(window, link);
-    if (due.snapshot) {
-      wire::Snapshot nothing_to_see;
-      nothing_to_see.set_window(window);
-      link.send(nothing_to_see);
-    }
+    hand_over(window, link);
+    if (link.wants_state(window)) link.send_state(base::saved(*this));
+  }
+}
+
+void PrescribedLoad::hand_over(std::uint64_t window, participant::ImpactorLink& link) {
+  wire::Forces forces;
+  forces.set_window(window);
+  forces.mutable_impulse()->Assign(impulse_.begin(), impulse_.end());
+  link.send(forces);
+  account(window);
+  const participant::Due due = link.due(window);
+  if (due.report) send_report(window, link);
+  if (due.snapshot) {
+    wire::Snapshot nothing_to_see;
+    nothing_to_see.set_window(window);
+    link.send(nothing_to_see);
   }
 }
 

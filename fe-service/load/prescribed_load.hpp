@@ -25,6 +25,16 @@ class PrescribedLoad final : public participant::ImpactorBackend {
   [[nodiscard]] wire::Ready prepare(const wire::Setup& setup) override;
   void run(const wire::Start& start, participant::ImpactorLink& link) override;
 
+  /// What a window leaves for the next one.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive.fixed("surface", now_);
+    archive.fixed("velocity", velocity_);
+    archive.fixed("last step", last_step_);
+    archive("given", counted_);
+    archive("work", work_);
+  }
+
  private:
   using Doubles = std::vector<double>;
 
@@ -32,6 +42,7 @@ class PrescribedLoad final : public participant::ImpactorBackend {
   void evaluate(std::uint64_t window);
   void account(std::uint64_t window);
   void take(const wire::Kinematics& surface);
+  void hand_over(std::uint64_t window, participant::ImpactorLink& link);
   void send_report(std::uint64_t window, participant::ImpactorLink& link) const;
 
   std::optional<scene::Pressure> pressure_;  ///< nullopt: nothing
