@@ -125,6 +125,7 @@ void CouplingFix::meet_orchestrator() {
   if (met == 0) throw PeerError("orchestrator", "ended the conversation before the run began; it says why");
   broadcast(setup, communicator());
   broadcast(start, communicator());
+  require_beginning(start);
   require_drivable(start);
   model_ = model_of(setup, particles);
   const double dt = start.window() / start.impactor_steps();

@@ -86,6 +86,7 @@ void DeckEngine::run_script() {
 wire::Ready DeckEngine::ready() const { return ready_of(model_, particles_); }
 
 void DeckEngine::run(const wire::Start& start, participant::ImpactorLink* link) {
+  require_beginning(start);
   const double dt = start.window() / start.impactor_steps();
   session_.command(fmt::format("timestep {:.17g}", dt));
   drive({.session = session_,

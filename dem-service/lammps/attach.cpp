@@ -7,11 +7,11 @@
 #include "dem-service/lammps/adapter.hpp"
 #include "dem-service/lammps/rank_exchange.hpp"
 #include "dem-service/lammps/surface_fix.hpp"
+#include "participant/resumed.hpp"
 
 namespace grainstep::dem {
 
 void require_drivable(const wire::Start& start) {
-  if (start.first_window() != 0) throw InputError("grainstep-dem cannot continue a run: Start.first_window must be 0");
   if (!(start.window() > 0.0) || start.impactor_steps() == 0) {
     throw InputError("Start: window and impactor_steps must be above 0");
   }
@@ -19,6 +19,12 @@ void require_drivable(const wire::Start& start) {
   if (steps > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
     throw InputError("time.end: " + std::to_string(steps) + " steps, but LAMMPS counts up to 2^31: end earlier");
   }
+}
+
+void require_beginning(const wire::Start& start) {
+  if (start.first_window() == 0) return;
+  throw InputError("a LAMMPS script cannot be resumed: Start.first_window is " + std::to_string(start.first_window()) +
+                   ", expected 0");
 }
 
 void drive(const Attached& what, const wire::Start& start, participant::ImpactorLink* link) {
@@ -29,8 +35,17 @@ void drive(const Attached& what, const wire::Start& start, participant::Impactor
   StepDriver driver(what.model, start, what.settings, std::move(surface), exchange);
   lammps::register_fix<SurfaceFix>(what.session.lammps());
   what.session.command("fix surface all grainstep/surface");
-  lammps::find_fix<SurfaceFix>(what.session.lammps(), "surface").connect(driver, exchange, what.own_pair_style);
-  what.session.command("run " + std::to_string(steps) + " post no");
+  auto& fix = lammps::find_fix<SurfaceFix>(what.session.lammps(), "surface");
+  fix.connect(driver, exchange, what.own_pair_style);
+  if (const auto resumed = link == nullptr ? std::nullopt : participant::resumed(start, *link)) {
+    fix.wait();
+    what.session.command("run 0 post no");
+    fix.go_on_from(resumed->state);
+    const std::uint64_t left = steps - resumed->window * start.impactor_steps();
+    what.session.command("run " + std::to_string(left) + " pre no post no");
+  } else {
+    what.session.command("run " + std::to_string(steps) + " post no");
+  }
   exchange.finish();
 }
 

@@ -16,8 +16,11 @@ struct Attached {
   bool own_pair_style = true;
 };
 
-/// InputError for a run that starts elsewhere than at its beginning, or has more steps than LAMMPS counts.
+/// InputError for a run that has more steps than LAMMPS counts.
 void require_drivable(const wire::Start& start);
+
+/// InputError for a run that is to go on: LAMMPS scripts of one's own have states that nobody else knows.
+void require_beginning(const wire::Start& start);
 
 /// Collective. `link`: rank 0's, nullptr elsewhere.
 void drive(const Attached& what, const wire::Start& start, participant::ImpactorLink* link);

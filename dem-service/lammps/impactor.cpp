@@ -58,6 +58,7 @@ class Impactor final : public participant::ImpactorBackend {
     wire::Hello hello = participant::hello(wire::IMPACTOR, "grainstep-dem (LAMMPS)", GRAINSTEP_VERSION, {2});
     for (const char* word : {"slug", "deck", "plane_strain", "axisymmetric", "size_distribution", "tension_cutoff"})
       hello.add_capabilities(word);
+    if (can_save()) hello.add_capabilities("state");
     return hello;
   }
 
@@ -86,6 +87,14 @@ class Impactor final : public participant::ImpactorBackend {
   }
 
  private:
+  /// A slug in one process; who may be sent a script may have anything to save.
+  [[nodiscard]] bool can_save() const {
+    if (options_.allow_deck) return false;
+    int ranks = 1;
+    if (options_.communicator != MPI_COMM_NULL) MPI_Comm_size(options_.communicator, &ranks);
+    return ranks == 1;
+  }
+
   // A preview of a slug needs no MPI, which takes longer to start than all the rest.
   void build(const wire::Setup& setup) {
     options_ = completed(options_);

@@ -46,6 +46,8 @@ class PairStyle : public lammps::UniformPair {
 
   /// This rank's share.
   [[nodiscard]] const PairEnergy& energy() const { return contacts_->energy(); }
+  /// This rank's, for a state that is saved or read.
+  [[nodiscard]] PairContacts& contacts() { return *contacts_; }
 
  private:
   friend class PairFix;
@@ -68,6 +70,8 @@ class PairFix : public lammps::ParticleFix {
   PairFix(lammps::Instance* lammps, int argument_count, char** arguments);
 
   void connect(PairStyle& pair_style) { style_ = &pair_style; }
+  /// The contacts that particles carry from one list of pairs to the next.
+  void forget() { partners_.clear(); }
 
   int setmask() override;
   void setup_post_neighbor() override { post_neighbor(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/archive.hpp"
 #include "dem-service/lammps/pair_style.hpp"
 
 namespace grainstep::dem {
@@ -48,6 +49,7 @@ ParticleArrays SurfaceFix::arrays() {
 /// LAMMPS knows nothing of our exceptions, and other ranks wait for this one: keep it for the next exchange.
 template <typename Work>
 void SurfaceFix::guarded(Work&& work) {
+  if (waits_) return;
   try {
     work();
   } catch (...) {
@@ -77,7 +79,37 @@ void SurfaceFix::end_of_step() {
   guarded([&] {
     const PairEnergy pairs = own_pair_style_ ? lammps::find_pair<PairStyle>(instance()).energy() : PairEnergy{};
     driver_->end_of_step(step() - first_step_, arrays(), pairs);
+    if (driver_->state_is_wanted(step() - first_step_)) exchange_->send_state(state());
   });
+}
+
+template <class Archive>
+void SurfaceFix::serialize(Archive& archive, lammps::Moment& moment) {
+  archive("LAMMPS", moment);
+  if constexpr (Archive::loads) lammps::list_again(instance(), moment);
+  std::vector<surface::Vec3> springs(springs_.begin(), springs_.begin() + particles().owned);
+  archive.fixed("springs", springs);
+  std::copy(springs.begin(), springs.end(), springs_.begin());
+  archive("contacts between particles", lammps::find_pair<PairStyle>(instance()).contacts());
+  archive("driver", *driver_);
+}
+
+std::string SurfaceFix::state() {
+  base::Saving archive;
+  lammps::Moment moment = lammps::moment_of(instance());
+  serialize(archive, moment);
+  return archive.take();
+}
+
+/// Contacts are read where neighbours were listed; particles are put where they are when all has been read.
+void SurfaceFix::go_on_from(std::string_view state) {
+  base::Loading archive(state);
+  lammps::Moment moment;
+  lammps::find_fix<PairFix>(instance(), PairFix::fix_id).forget();
+  serialize(archive, moment);
+  archive.end();
+  lammps::go_on_from(instance(), moment);
+  waits_ = false;
 }
 
 void SurfaceFix::grow_arrays(int capacity) { springs_.resize(static_cast<std::size_t>(capacity)); }

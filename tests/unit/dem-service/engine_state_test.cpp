@@ -1,4 +1,4 @@
-// A run of the native engine that is saved and goes on elsewhere gives the bits of one that was not.
+// A run of either engine that is saved and goes on elsewhere gives the bits of one that was not.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -58,10 +58,14 @@ Motion sinking(double per_window) {
 
 ScriptedLink run_on(const Case& of, const wire::Start& start, std::set<std::uint64_t> save_at,
                     std::optional<std::string> from, int threads = 1) {
-  const SlugModel model = model_of(of.setup);
   ScriptedLink link(of.setup, start, sinking(start.window() * 1.0));
   link.save_at = std::move(save_at);
   link.resume_from = std::move(from);
+  if (!native_is_tested()) {
+    SlugEngine(alone(), of.setup).run(start, &link);
+    return link;
+  }
+  const SlugModel model = model_of(of.setup);
   native::make_engine(model, of.setup.impactor(),
                       lay_out(model, contact::MovingSurface(of.setup.impactor().surface()).now()), threads)
       ->run(start, link);
@@ -77,11 +81,11 @@ std::string bytes_from(const std::vector<Message>& messages, std::uint64_t windo
   return bytes;
 }
 
-class NativeState : public ::testing::TestWithParam<Case (*)()> {};
-INSTANTIATE_TEST_SUITE_P(, NativeState, ::testing::Values(equal_discs, unequal_discs, confined_half, spheres),
+class EngineState : public ::testing::TestWithParam<Case (*)()> {};
+INSTANTIATE_TEST_SUITE_P(, EngineState, ::testing::Values(equal_discs, unequal_discs, confined_half, spheres),
                          [](const auto& of) { return "Case" + std::to_string(of.index); });
 
-TEST_P(NativeState, ARunThatGoesOnGivesTheBitsOfOneThatWasNotInterrupted) {
+TEST_P(EngineState, ARunThatGoesOnGivesTheBitsOfOneThatWasNotInterrupted) {
   const Case of = GetParam()();
   SCOPED_TRACE(of.name);
   const SlugModel model = model_of(of.setup);
@@ -107,7 +111,7 @@ TEST_P(NativeState, ARunThatGoesOnGivesTheBitsOfOneThatWasNotInterrupted) {
   }
 }
 
-TEST(NativeStateOf, AnotherModelIsRefused) {
+TEST(EngineStateOf, AnotherModelIsRefused) {
   const Case of = equal_discs();
   wire::Start start = start_of(model_of(of.setup).preferred_step, 20);
   std::string state = run_on(of, start, {10}, std::nullopt).states.at(10);
