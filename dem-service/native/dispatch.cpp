@@ -4,7 +4,7 @@
 namespace grainstep::dem::native {
 
 // Defined by the copies of sweeps.cpp.
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(GRAINSTEP_ONE_KERNEL)
 extern const Sweeps sweeps_x86_64;
 extern const Sweeps sweeps_x86_64_v3;
 extern const Sweeps sweeps_x86_64_v4;
@@ -16,7 +16,7 @@ namespace {
 
 std::vector<const Sweeps*> detect() {
   std::vector<const Sweeps*> found;
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(GRAINSTEP_ONE_KERNEL)
   if (x86_level() >= X86Level::v4) found.push_back(&sweeps_x86_64_v4);
   if (x86_level() >= X86Level::v3) found.push_back(&sweeps_x86_64_v3);
   found.push_back(&sweeps_x86_64);

@@ -11,7 +11,7 @@
 namespace grainstep::dem {
 
 // Defined by the copies of kernel.cpp.
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(GRAINSTEP_ONE_KERNEL)
 extern const PairKernels pair_kernels_x86_64;
 extern const PairKernels pair_kernels_x86_64_v3;
 extern const PairKernels pair_kernels_x86_64_v4;
@@ -25,7 +25,7 @@ constexpr std::uint32_t no_pair = std::numeric_limits<std::uint32_t>::max();
 
 std::vector<const PairKernels*> detect() {
   std::vector<const PairKernels*> found;
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(GRAINSTEP_ONE_KERNEL)
   if (x86_level() >= X86Level::v4) found.push_back(&pair_kernels_x86_64_v4);
   if (x86_level() >= X86Level::v3) found.push_back(&pair_kernels_x86_64_v3);
   found.push_back(&pair_kernels_x86_64);

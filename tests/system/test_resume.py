@@ -119,6 +119,33 @@ class Resumed(unittest.TestCase):
             self.same_as_whole(run.out)
 
 
+class WithOthers(unittest.TestCase):
+    """The same of every impactor that can save its state."""
+
+    def goes_on(self, *options):
+        whole = ended(self, *options, "--checkpoint-every", "0")
+        with Run(*options, "--checkpoint-every", "0.05") as run:
+            saved(run)
+            run.process.send_signal(signal.SIGKILL)
+            run.end(AT_ONCE)
+            self.assertGreater(len(checkpoints(run.out)), 0, "it was over before it was saved")
+            command("resume", run.out, "--quiet")
+            self.assertEqual(datasets(run.out / "results.h5"), datasets(whole.out / "results.h5"))
+            self.assertEqual(paraview(run.out), paraview(whole.out))
+
+    def test_lammps(self):
+        self.goes_on("--set", "impactor.slug.particle.diameter='1 mm'", "--set", "time.end=0.2")
+
+    def test_foam(self):
+        self.goes_on("--set", "impactor.type=foam", "--set", "impactor.foam.elements=16", "--set",
+                     "impactor.foam.shock_width=0.15", "--set", "time.end=0.2")
+
+    def test_several_processes_say_that_they_cannot(self):
+        run = ended(self, "--ranks", "2", "--set", "time.end=0.02", "--checkpoint-every", "0.05")
+        self.assertEqual(checkpoints(run.out), [])
+        self.assertIn("has no checkpoint", command("resume", run.out, code=2).stderr)
+
+
 class Refused(unittest.TestCase):
     """What is said where a run cannot go on."""
 
