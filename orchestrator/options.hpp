@@ -31,6 +31,7 @@ struct RunOptions {
   bool allow_program = false;         ///< that the scene names, and that is not ours
   bool allow_deck = false;            ///< LAMMPS scripts may be run
   double checkpoint_every_s = 600.0;  ///< 0: only before an end from outside
+  int retry = 0;                      ///< how often a run that lost a participant goes on by itself
   bool resume = false;                ///< go on with what is in `out`
   std::optional<std::uint64_t> from;  ///< that window's checkpoint; the latest
   bool inexact = false;               ///< by another build, too

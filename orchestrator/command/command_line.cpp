@@ -36,6 +36,10 @@ void add_run_options(CLI::App* run, RunOptions& options) {
                   "by Ctrl-C or SIGTERM")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
+  run->add_option("--retry", options.retry,
+                  "How often a run that has lost a participant goes on by itself, from its latest checkpoint")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
   run->add_flag("--quiet", options.quiet, "No progress, no summary on the terminal");
   run->add_option("--connect-deadline", options.deadlines.connect_s, "Seconds until both participants must be there")
       ->check(participant::positive_number());

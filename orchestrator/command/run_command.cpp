@@ -1,6 +1,8 @@
 #include "orchestrator/command/run_command.hpp"
 
 #include <cstdio>
+#include <optional>
+#include <string>
 
 #include "base/error.hpp"
 #include "orchestrator/command/conduct.hpp"
@@ -120,6 +122,32 @@ Ending run_to_its_end(const RunOptions& options, const Preparation& preparation,
   }
 }
 
+void say_that_it_goes_on(const Ending& ending, const Resume* from, int time, int of) {
+  const std::string where = from == nullptr ? "begins anew, there is no checkpoint yet"
+                                            : "goes on from window " + std::to_string(from->checkpoint.window);
+  std::fprintf(stderr, "grainstep: %s\ngrainstep: the run %s (%d of %d times)\n", ending.reason.c_str(), where.c_str(),
+               time, of);
+}
+
+/// And again, as often as the user wants, where a participant is lost: both are started anew.
+Ending run_in_spite_of_losses(const RunOptions& options, const Preparation& preparation,
+                              const results::RunDirectory& directory, std::optional<results::DirectoryLock>& lock,
+                              const Resume* from) {
+  Ending ending = run_to_its_end(options, preparation, directory, from);
+  for (int time = 1; ending.code == ExitCode::peer && time <= options.retry; ++time) {
+    std::optional<Resume> latest;
+    if (!results::Checkpoints(directory.checkpoints()).windows().empty()) {
+      latest = load_resume(directory, std::nullopt);
+    } else {
+      lock.reset();  // it is taken again by who empties the directory
+      lock.emplace(directory.prepare(results::Existing::replace));
+    }
+    say_that_it_goes_on(ending, latest ? &*latest : nullptr, time, options.retry);
+    ending = run_to_its_end(options, preparation, directory, latest ? &*latest : nullptr);
+  }
+  return ending;
+}
+
 /// Says why, and how it can go on.
 int exit_with(const Ending& ending, const results::RunDirectory& directory) {
   if (ending.code == ExitCode::done) return 0;
@@ -143,12 +171,12 @@ Preparation prepared(const RunOptions& options) {
 int resume_run(RunOptions options) {
   const results::RunDirectory directory(options.out);
   if (!directory.holds_a_run()) throw InputError(directory.path().string() + ": holds no run to go on with");
-  const results::DirectoryLock lock = directory.prepare(results::Existing::go_on);
+  std::optional<results::DirectoryLock> lock(directory.prepare(results::Existing::go_on));
   const Resume resume = load_resume(directory, options.from);
   options.scene.scene = directory.scene();
   const Preparation preparation = prepared(options);
   announce(options, preparation, directory);
-  return exit_with(run_to_its_end(options, preparation, directory, &resume), directory);
+  return exit_with(run_in_spite_of_losses(options, preparation, directory, lock, &resume), directory);
 }
 
 }  // namespace
@@ -157,10 +185,10 @@ int run(const RunOptions& options) {
   if (options.resume) return resume_run(options);
   const Preparation preparation = prepared(options);
   const results::RunDirectory directory = directory_of(options);
-  const results::DirectoryLock lock =
-      directory.prepare(options.force ? results::Existing::replace : results::Existing::refuse);
+  std::optional<results::DirectoryLock> lock(
+      directory.prepare(options.force ? results::Existing::replace : results::Existing::refuse));
   announce(options, preparation, directory);
-  return exit_with(run_to_its_end(options, preparation, directory, nullptr), directory);
+  return exit_with(run_in_spite_of_losses(options, preparation, directory, lock, nullptr), directory);
 }
 
 }  // namespace grainstep::orchestrator

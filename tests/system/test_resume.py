@@ -6,7 +6,7 @@ import signal
 import subprocess
 import unittest
 
-from runs import AT_ONCE, BIN, WHOLE_RUN, Run, datasets, ended, until
+from runs import AT_ONCE, BIN, WHOLE_RUN, Run, datasets, descendants, ended, until
 
 # Some seconds, of which the first tenths are enough for a checkpoint.
 NATIVE = ("--set", "impactor.engine=native", "--set", "impactor.slug.particle.diameter='1 mm'", "--set", "time.end=0.5")
@@ -144,6 +144,57 @@ class WithOthers(unittest.TestCase):
         run = ended(self, "--ranks", "2", "--set", "time.end=0.02", "--checkpoint-every", "0.05")
         self.assertEqual(checkpoints(run.out), [])
         self.assertIn("has no checkpoint", command("resume", run.out, code=2).stderr)
+
+
+class Retried(unittest.TestCase):
+    """`--retry N`: a lost participant is started again."""
+
+    def setUp(self):
+        self.whole = ended(self, *NATIVE, "--checkpoint-every", "0")
+
+    def process_of(self, run, program):
+        """Who computes with it now, if anybody does; the kernel knows it by 15 letters."""
+        return next((pid for pid, name in descendants(run.process.pid).items() if program.startswith(name)), None)
+
+    def kill(self, run, program):
+        os.kill(self.process_of(run, program), signal.SIGKILL)
+
+    def kill_and_wait(self, run, program):
+        """Until the next one has been saved."""
+        saved(run)
+        before = self.process_of(run, program)
+        self.kill(run, program)
+        over = lambda: run.process.poll() is not None
+        until(lambda: self.process_of(run, program) not in (before, None) or over(), "another one")
+        last = checkpoints(run.out)[-1]
+        until(lambda: checkpoints(run.out)[-1] > last or over(), "its going on")
+
+    def test_each_side_once(self):
+        with Run(*NATIVE, *OFTEN, "--retry", "2") as run:
+            for program in ("grainstep-fe", "grainstep-grains"):
+                self.kill_and_wait(run, program)
+            run.end()
+            self.assertEqual(run.code, 0, run.stderr)
+            self.assertRegex(run.stderr, r"structure: .*killed by signal 9.*\n.*goes on from window \d+ \(1 of 2 times\)")
+            self.assertIn("(2 of 2 times)", run.stderr)
+            self.assertEqual(datasets(run.out / "results.h5"), datasets(self.whole.out / "results.h5"))
+
+    def test_no_more_often_than_one_wants(self):
+        with Run(*NATIVE, *OFTEN, "--retry", "1") as run:
+            self.kill_and_wait(run, "grainstep-fe")
+            self.kill(run, "grainstep-fe")
+            run.end()
+            self.assertEqual(run.code, 4, run.stderr)
+            self.assertIn(f"grainstep resume {run.out} goes on from window", run.stderr)
+
+    def test_before_the_first_checkpoint_it_begins_anew(self):
+        with Run(*NATIVE, "--checkpoint-every", "0", "--retry", "1") as run:
+            run.wait_for_rows()
+            self.kill(run, "grainstep-grains")
+            run.end()
+            self.assertEqual(run.code, 0, run.stderr)
+            self.assertIn("the run begins anew, there is no checkpoint yet (1 of 1 times)", run.stderr)
+            self.assertEqual(datasets(run.out / "results.h5"), datasets(self.whole.out / "results.h5"))
 
 
 class Refused(unittest.TestCase):
