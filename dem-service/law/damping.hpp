@@ -26,8 +26,8 @@ struct Collision {
 [[nodiscard]] double discrete_restitution(const Collision& collision, double gamma, double dt);
 
 /// The damping rate (1/s) for which discrete_restitution() is `collision.restitution`; tends to continuum_damping() as
-/// dt goes to 0; to a part of `tolerance`. Contacts of more than 4096 steps
-/// get the rate of those with as many. Throws InputError where the step is too coarse for such a rate to exist.
+/// dt goes to 0; to a part of `tolerance`. For contacts of more than 256 steps
+/// it is extrapolated. Throws InputError where the step is too coarse for such a rate to exist.
 [[nodiscard]] double calibrated_damping(const Collision& collision, double dt, double tolerance = 1e-13);
 
 /// calibrated_damping() of all effective masses from `lightest.effective_mass` to `heaviest` (kg), for the step dt (s).
