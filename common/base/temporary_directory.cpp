@@ -1,9 +1,6 @@
 #include "base/temporary_directory.hpp"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <string>
+#include <filesystem>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -21,21 +18,11 @@ TemporaryDirectory::TemporaryDirectory() {
   if (parent.empty() || parent.string().size() > longest_parent) {
     parent = "/tmp";
   }
-  std::string pattern = (parent / "grainstep-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) {  // mode 0700
-    throw InputError(parent.string() + ": no temporary directory can be made: " + std::strerror(errno) +
+  try {
+    directory_.emplace(parent);
+  } catch (const std::system_error& error) {
+    throw InputError(parent.string() + ": no temporary directory can be made: " + error.code().message() +
                      ". Set TMPDIR to a directory that can be written.");
-  }
-  path_ = pattern;
-}
-
-TemporaryDirectory::~TemporaryDirectory() { remove(); }
-
-void TemporaryDirectory::remove() noexcept {
-  if (!removed_) {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-    removed_ = true;
   }
 }
 

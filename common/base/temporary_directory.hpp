@@ -3,6 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "base/owned_directory.hpp"
 
 namespace grainstep {
 
@@ -10,18 +13,14 @@ class TemporaryDirectory {
  public:
   /// In $TMPDIR or /tmp; in /tmp in any case where a socket's path would become too long. Throws InputError.
   TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  ~TemporaryDirectory();
 
   /// Before its time; once is enough.
-  void remove() noexcept;
+  void remove() noexcept { directory_->remove(); }
 
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return directory_->path(); }
 
  private:
-  std::filesystem::path path_;
-  bool removed_ = false;
+  std::optional<OwnedDirectory> directory_;  ///< from the constructor on
 };
 
 }  // namespace grainstep

@@ -3,7 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
+
+#include "base/owned_directory.hpp"
 
 namespace grainstep::transport {
 
@@ -32,11 +35,11 @@ class SharedMemory {
   void remove_name() noexcept;
 
  private:
-  SharedMemory(std::span<std::byte> bytes, std::filesystem::path file, bool mine);
+  SharedMemory(std::span<std::byte> bytes, std::filesystem::path file, std::optional<OwnedDirectory> home);
 
   std::span<std::byte> bytes_;
   std::filesystem::path file_;
-  bool named_;  ///< the name is ours to take away
+  std::optional<OwnedDirectory> home_;  ///< of its creator
 };
 
 }  // namespace grainstep::transport

@@ -1,0 +1,37 @@
+/// @file A directory for as long as its process lives, and what killed processes have left of theirs.
+///
+/// The owner holds a lock in it, which ends with the process however it ends. A directory whose lock nobody holds was
+/// left behind, and the next process of the same user takes it away.
+#pragma once
+
+#include <filesystem>
+
+#include "base/descriptor.hpp"
+
+namespace grainstep {
+
+class OwnedDirectory {
+ public:
+  /// A new one in `parent`, which only this user may enter. Takes away what was left there. std::system_error where it
+  /// cannot be made.
+  explicit OwnedDirectory(const std::filesystem::path& parent);
+  OwnedDirectory(OwnedDirectory&& other) noexcept = default;
+  OwnedDirectory& operator=(OwnedDirectory&&) = delete;
+  OwnedDirectory(const OwnedDirectory&) = delete;
+  OwnedDirectory& operator=(const OwnedDirectory&) = delete;
+  ~OwnedDirectory() { remove(); }
+
+  /// With everything in it, before its time; once is enough.
+  void remove() noexcept;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  Descriptor lock_;
+};
+
+/// Takes away those in `parent` that this user's processes have left.
+void remove_abandoned_directories(const std::filesystem::path& parent) noexcept;
+
+}  // namespace grainstep
