@@ -1,5 +1,6 @@
 #include "orchestrator/command/end_of_program.hpp"
 
+#include <csignal>
 #include <cstdio>
 
 #include "base/error.hpp"
@@ -15,6 +16,8 @@ int fail(ExitCode code, const std::exception& error) {
 }  // namespace
 
 int end_of_program(const std::function<int()>& act) {
+  // A limit on the size of files is a full disk: the write fails and says so. By itself this signal ends a program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return act();
   } catch (const InputError& error) {

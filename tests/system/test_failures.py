@@ -205,7 +205,7 @@ class Numerical(unittest.TestCase):
         limit = 2 << 20  # a limit on the size of a file stands for a full disk
 
         def restrict():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it, and whoever it starts would too
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
         with Run(*LONG, "--set", "output.rows=20000", preexec_fn=restrict) as run:
