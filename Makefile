@@ -4,7 +4,7 @@ DEMO := runs/demo
 JOBS ?= $(shell nproc)
 PYTHON := /usr/bin/python3
 
-.PHONY: help packages configured build demo demo-programs test test-long verify sanitize fuzz drill golden bench \
+.PHONY: help packages configured build demo demo-programs test test-long verify sanitize fuzz soak drill golden bench \
   bench-plates accuracy figures docs containers clean
 
 help:
@@ -14,6 +14,7 @@ help:
 	@echo "make test-long the long tests: convergence, full scenes"
 	@echo "make verify    closed forms, orders and benchmarks: writes docs/verification.md and its pages (under 30 minutes)"
 	@echo "make sanitize  quick tests under address and undefined-behaviour sanitizers"
+	@echo "make soak      runs that are killed, stopped, out of space, and go on (SOAK_OPTIONS='--trials 1000')"
 	@echo "make fuzz      lies to both sides of the protocol under sanitizers, with libFuzzer (FUZZ_RUNS=20000)"
 	@echo "make drill     faults put into a copy of the sources: which tests see them (docs/drill.md, about an hour)"
 	@echo "make golden    do short runs of every kind still give the bits of this results version"
@@ -82,6 +83,10 @@ fuzz:
 	@test -f build-fuzz/build.ninja || cmake --preset fuzz
 	@cmake --build --preset fuzz -j $(JOBS) --target $(FUZZ_TARGETS)
 	@$(PYTHON) tools/fuzz --runs $(FUZZ_RUNS) $(FUZZ_OPTIONS)
+
+# Runs that are hit by faults and must go on (docs/reliability.md). SOAK_OPTIONS='--trials 1000 --page docs/reliability.md'.
+soak: build
+	@$(PYTHON) tools/soak --build $(BUILD) $(SOAK_OPTIONS)
 
 # DRILL_OPTIONS=--only NAME tries one fault, --list shows them all, --keep keeps the scratch copy and its build.
 drill: packages
