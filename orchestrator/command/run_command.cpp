@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/error.hpp"
 #include "orchestrator/command/conduct.hpp"
@@ -160,9 +161,23 @@ int exit_with(const Ending& ending, const results::RunDirectory& directory) {
   return static_cast<int>(ending.code);
 }
 
+/// A participant that is lost while it is asked is asked again, as often as the user wants in the whole run.
+Preparation asked(RunOptions& options) {
+  while (true) {
+    try {
+      return prepare(options);
+    } catch (const PeerError& lost) {
+      if (options.retry == 0) throw;
+      --options.retry;
+      std::fprintf(stderr, "grainstep: %s\ngrainstep: the participants are asked again (%d times more, if need be)\n",
+                   lost.what(), options.retry);
+    }
+  }
+}
+
 /// A scene that can be computed here. InputError otherwise.
-Preparation prepared(const RunOptions& options) {
-  Preparation preparation = prepare(options);
+Preparation prepared(RunOptions& options) {
+  Preparation preparation = asked(options);
   print_warnings(preparation);
   require_memory(preparation, options.ranks, memory_of_machine());
   return preparation;
@@ -181,8 +196,8 @@ int resume_run(RunOptions options) {
 
 }  // namespace
 
-int run(const RunOptions& options) {
-  if (options.resume) return resume_run(options);
+int run(RunOptions options) {
+  if (options.resume) return resume_run(std::move(options));
   const Preparation preparation = prepared(options);
   const results::RunDirectory directory = directory_of(options);
   std::optional<results::DirectoryLock> lock(
