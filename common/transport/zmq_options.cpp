@@ -24,7 +24,10 @@ void set_options(zmq::socket_t& socket, const ZmqOptions& options) {
   socket.set(opt::maxmsgsize, static_cast<std::int64_t>(options.largest_message));
   // Lock step keeps a handful of messages in flight; this only bounds the memory that a misbehaving peer can take.
   socket.set(opt::sndhwm, 1000);
-  socket.set(opt::rcvhwm, 1000);
+  // Senders are held back by their own queue and the kernel's. Where a receiver's is full, libzmq 4.3.4 stops reading,
+  // and aborts the process if the connection is lost in the meantime (its issue 3937): a process that stood still for
+  // some seconds and went on met that.
+  socket.set(opt::rcvhwm, 100'000);
   socket.set(opt::heartbeat_ivl, milliseconds(options.heartbeat_s));
   socket.set(opt::heartbeat_timeout, milliseconds(options.silence_s));
   // The peer drops us by the same measure, even where its own heartbeats are off (rounded to 0.1 s by the protocol).

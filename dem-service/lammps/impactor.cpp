@@ -4,6 +4,7 @@
 
 #include "base/assert.hpp"
 #include "base/error.hpp"
+#include "declare/ranges.hpp"
 #include "dem-service/deck/deck_engine.hpp"
 #include "dem-service/lammps/slug_engine.hpp"
 #include "dem-service/mpi_start.hpp"
@@ -69,6 +70,7 @@ class Impactor final : public participant::ImpactorBackend {
     if (impactor.type() != scene::Impactor::TYPE_SLUG && !deck) {
       throw InputError("impactor.type: grainstep-dem computes `slug` and `deck`, this scene has another one");
     }
+    declare::require_ranges(impactor, "impactor");
     wire::Ready ready;
     if (setup.preview() && !deck) {  // what a script makes is known when it has been run
       ready = preview(impactor, setup.symmetry(), setup.depth(), setup.mirror()).ready(setup.impactor().surface());

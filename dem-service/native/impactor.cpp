@@ -3,6 +3,7 @@
 #include "base/assert.hpp"
 #include "base/error.hpp"
 #include "contact/moving_surface.hpp"
+#include "declare/ranges.hpp"
 #include "dem-service/native/engine.hpp"
 #include "dem-service/slug/preview.hpp"
 #include "participant/hello.hpp"
@@ -43,6 +44,7 @@ class Impactor final : public participant::ImpactorBackend {
     if (impactor.type() != scene::Impactor::TYPE_SLUG) {
       throw InputError("impactor.type: grainstep-grains computes `slug`, this scene has another one");
     }
+    declare::require_ranges(impactor, "impactor");
     wire::Ready ready =
         preview(impactor, setup.symmetry(), setup.depth(), setup.mirror()).ready(setup.impactor().surface());
     make_own(ready, setup.symmetry() == scene::SYMMETRY_AXISYMMETRIC);

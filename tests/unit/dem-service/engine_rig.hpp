@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "contact/moving_surface.hpp"
 #include "dem-service/lammps/slug_engine.hpp"
 #include "dem-service/mpi_start.hpp"
 #include "dem-service/native/engine.hpp"
-#include "dem-service/native/impactor.hpp"
+#include "dem-service/slug/layout.hpp"
 #include "participant/schedule.hpp"
 
 namespace grainstep::dem::rig {
@@ -33,6 +34,7 @@ inline wire::Setup reference_setup() {
   slug.set_relative_density(0.2);
   slug.set_speed(400.0);
   slug.set_seed(1);
+  slug.set_slice_angle(0.1);  // of discs it is not read, but every key has its range
   scene::Particle& particle = *slug.mutable_particle();
   particle.set_diameter(1e-3);
   particle.set_density(2700.0);
@@ -157,16 +159,10 @@ inline ScriptedLink run(const wire::Setup& setup, const wire::Start& start,
   return link;
 }
 
+/// The slug's own particles, where its seed puts them.
 inline ScriptedLink run_slug(const wire::Setup& setup, const wire::Start& start, const Motion& motion = at_rest()) {
-  ScriptedLink link(setup, start, motion);
-  if (native_is_tested()) {
-    const auto impactor = native::make_impactor();
-    static_cast<void>(impactor->prepare(setup));
-    impactor->run(start, link);
-  } else {
-    SlugEngine(alone(), setup).run(start, &link);
-  }
-  return link;
+  const contact::MovingSurface surface(setup.impactor().surface());
+  return run(setup, start, lay_out(slug_model_of(setup), surface.now()), motion);
 }
 
 inline SlugModel model_of(const wire::Setup& setup) {
