@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace grainstep {
 namespace {
@@ -16,33 +17,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* prefix = "grainstep-";
-constexpr const char* lock_name = "owner";
-constexpr const char* unlocked_name = "owner.new";  // nobody looks at it: who made it has not locked it yet
+constexpr const char* unlocked = ".";  // in front of it: nobody looks at one that its maker has not locked yet
 
 [[noreturn]] void fail(const fs::path& what) { throw std::system_error(errno, std::generic_category(), what.string()); }
-
-fs::path made_in(const fs::path& parent) {
-  std::string pattern = (parent / (std::string(prefix) + "XXXXXX")).string();
-  if (::mkdtemp(pattern.data()) == nullptr) fail(pattern);  // mode 0700
-  return pattern;
-}
 
 void remove_tree(const fs::path& path) noexcept {
   std::error_code ignored;
   fs::remove_all(path, ignored);
 }
 
-Descriptor locked_in(const fs::path& directory) {
-  Descriptor lock(::open((directory / unlocked_name).c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (!lock.is_open()) {
-    const int error = errno;
-    remove_tree(directory);
-    throw std::system_error(error, std::generic_category(), directory.string());
-  }
-  // Where the file system knows no locks, it keeps the name that nobody looks at.
-  if (::flock(lock.get(), LOCK_EX | LOCK_NB) == 0) {
-    static_cast<void>(::rename((directory / unlocked_name).c_str(), (directory / lock_name).c_str()));
-  }
+/// -1 where the file system has no locks, or the directory is not to be had.
+Descriptor locked(const fs::path& directory) {
+  Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  if (lock.is_open() && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) lock.close();
   return lock;
 }
 
@@ -54,19 +41,30 @@ bool is_ours(const fs::path& path) {
 }
 
 bool is_abandoned(const fs::path& directory) {
-  if (!directory.filename().native().starts_with(prefix) || !is_ours(directory)) return false;
-  const Descriptor lock(::open((directory / lock_name).c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC));
-  return lock.is_open() && ::flock(lock.get(), LOCK_EX | LOCK_NB) == 0;
+  return directory.filename().native().starts_with(prefix) && is_ours(directory) && locked(directory).is_open();
 }
 
 }  // namespace
 
-OwnedDirectory::OwnedDirectory(const fs::path& parent)
-    : path_((remove_abandoned_directories(parent), made_in(parent))), lock_(locked_in(path_)) {}
+OwnedDirectory::OwnedDirectory(const fs::path& parent) {
+  remove_abandoned_directories(parent);
+  std::string made = (parent / (std::string(unlocked) + prefix + "XXXXXX")).string();
+  if (::mkdtemp(made.data()) == nullptr) fail(made);  // mode 0700
+  lock_ = locked(made);
+  path_ = parent / fs::path(made).filename().native().substr(1);
+  if (::rename(made.c_str(), path_.c_str()) == 0) return;
+  const int error = errno;
+  remove_tree(made);
+  throw std::system_error(error, std::generic_category(), path_.string());
+}
+
+OwnedDirectory::OwnedDirectory(OwnedDirectory&& other) noexcept
+    : path_(std::exchange(other.path_, {})), lock_(std::move(other.lock_)) {}
 
 void OwnedDirectory::remove() noexcept {
-  if (!lock_.is_open()) return;  // moved away, or removed before
+  if (path_.empty() || removed_) return;  // moved away, or removed before
   remove_tree(path_);
+  removed_ = true;
   lock_.close();
 }
 

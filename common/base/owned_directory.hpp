@@ -1,6 +1,6 @@
 /// @file A directory for as long as its process lives, and what killed processes have left of theirs.
 ///
-/// The owner holds a lock in it, which ends with the process however it ends. A directory whose lock nobody holds was
+/// The owner holds a lock on it, which ends with the process however it ends. A directory whose lock nobody holds was
 /// left behind, and the next process of the same user takes it away.
 #pragma once
 
@@ -15,7 +15,7 @@ class OwnedDirectory {
   /// A new one in `parent`, which only this user may enter. Takes away what was left there. std::system_error where it
   /// cannot be made.
   explicit OwnedDirectory(const std::filesystem::path& parent);
-  OwnedDirectory(OwnedDirectory&& other) noexcept = default;
+  OwnedDirectory(OwnedDirectory&& other) noexcept;
   OwnedDirectory& operator=(OwnedDirectory&&) = delete;
   OwnedDirectory(const OwnedDirectory&) = delete;
   OwnedDirectory& operator=(const OwnedDirectory&) = delete;
@@ -29,6 +29,7 @@ class OwnedDirectory {
  private:
   std::filesystem::path path_;
   Descriptor lock_;
+  bool removed_ = false;
 };
 
 /// Takes away those in `parent` that this user's processes have left.

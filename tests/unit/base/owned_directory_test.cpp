@@ -89,26 +89,26 @@ TEST(OwnedDirectory, OfAKilledProcessIsTakenAwayByTheNext) {
 TEST(OwnedDirectory, WhatIsNoneIsLeftAlone) {
   const TemporaryDirectory parent;
   const TemporaryDirectory elsewhere;
-  const auto made = [](const fs::path& path, const char* file) {
+  const auto made = [](const fs::path& path) {
     fs::create_directories(path);
     fs::permissions(path, fs::perms::owner_all);
-    std::ofstream(path / file) << "x";
+    std::ofstream(path / "file") << "x";
     return path;
   };
-  const fs::path new_one = made(parent.path() / "grainstep-aaaaaa", "owner.new");
-  const fs::path foreign = made(parent.path() / "something", "owner");
-  const fs::path target = made(elsewhere.path() / "target", "owner");
+  const fs::path new_one = made(parent.path() / ".grainstep-aaaaaa");
+  const fs::path foreign = made(parent.path() / "something");
+  const fs::path target = made(elsewhere.path() / "target");
   const fs::path link = parent.path() / "grainstep-bbbbbb";
   fs::create_directory_symlink(target, link);
-  const fs::path open_to_all = made(parent.path() / "grainstep-cccccc", "owner");
+  const fs::path open_to_all = made(parent.path() / "grainstep-cccccc");
   fs::permissions(open_to_all, fs::perms::all);
   std::ofstream(parent.path() / "grainstep-dddddd") << "x";
-  const fs::path left = made(parent.path() / "grainstep-eeeeee", "owner");
+  const fs::path left = made(parent.path() / "grainstep-eeeeee");
   remove_abandoned_directories(parent.path());
   for (const fs::path& kept : {new_one, foreign, target, link, open_to_all, parent.path() / "grainstep-dddddd"}) {
     EXPECT_TRUE(fs::exists(kept)) << kept;
   }
-  EXPECT_TRUE(fs::exists(target / "owner"));
+  EXPECT_TRUE(fs::exists(target / "file"));
   EXPECT_FALSE(fs::exists(left));
 }
 
