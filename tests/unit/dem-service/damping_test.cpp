@@ -86,6 +86,16 @@ TEST(Damping, CalibrationTendsToTheContinuumThroughAllTurningPoints) {
   }
 }
 
+// In so many steps one phase or another turns round at next to no rate.
+TEST(Damping, TurningRoundIsNoEnd) {
+  for (double e = 0.5; e < 0.99; e += 0.005) {
+    const Collision collision = reference(e);
+    const double found =
+        discrete_restitution(collision, continuum_damping(collision), contact_time(collision) / 4096.0);
+    EXPECT_NEAR(found, e, 5e-4);
+  }
+}
+
 // A strange scene, or a lie, must not take for ever: a contact of 10^7 steps would be tried some 10^11 of them.
 TEST(Damping, OfAContactOfManyStepsIsInterpolated) {
   for (const double e : {0.3, 0.7, 0.95}) {
