@@ -1,7 +1,8 @@
 /// @file A directory for as long as its process lives, and what killed processes have left of theirs.
 ///
-/// The owner holds a lock on it, which ends with the process however it ends. A directory whose lock nobody holds was
-/// left behind, and the next process of the same user takes it away.
+/// It lies in one that holds a file besides, the mark, which the owner keeps locked. The lock ends with the process
+/// however it ends: a directory with a mark that nobody has locked was left behind, and the next process of the same
+/// user takes it away. A directory without a mark is somebody's, whatever its name.
 #pragma once
 
 #include <filesystem>
@@ -27,6 +28,7 @@ class OwnedDirectory {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
+  std::filesystem::path marked_;  ///< holds `path_` and the mark
   std::filesystem::path path_;
   Descriptor lock_;
   bool removed_ = false;

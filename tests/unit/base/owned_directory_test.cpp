@@ -66,9 +66,11 @@ TEST(OwnedDirectory, IsPrivateAndGoneWithItsOwner) {
     struct stat status {};
     ASSERT_EQ(::stat(path.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0700U);
+    ASSERT_EQ(::stat(path.parent_path().c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0700U);
     std::ofstream(path / "socket") << "x";
   }
-  EXPECT_FALSE(fs::exists(path));
+  EXPECT_FALSE(fs::exists(path.parent_path()));
 }
 
 TEST(OwnedDirectory, OfAKilledProcessIsTakenAwayByTheNext) {
@@ -81,11 +83,12 @@ TEST(OwnedDirectory, OfAKilledProcessIsTakenAwayByTheNext) {
   EXPECT_TRUE(fs::exists(killed.path()));
   const OwnedDirectory next(parent.path());
   EXPECT_FALSE(fs::exists(killed.path()));
+  EXPECT_FALSE(fs::exists(killed.path().parent_path()));
   EXPECT_TRUE(fs::exists(living.path() / "socket"));
   EXPECT_TRUE(fs::exists(mine.path()));
 }
 
-// Whose owner has not locked it yet, others' files, links to anywhere.
+// Directories of such a name without a mark, or with one that is no file; links to anywhere; what others may enter.
 TEST(OwnedDirectory, WhatIsNoneIsLeftAlone) {
   const TemporaryDirectory parent;
   const TemporaryDirectory elsewhere;
@@ -95,17 +98,26 @@ TEST(OwnedDirectory, WhatIsNoneIsLeftAlone) {
     std::ofstream(path / "file") << "x";
     return path;
   };
-  const fs::path new_one = made(parent.path() / ".grainstep-aaaaaa");
-  const fs::path foreign = made(parent.path() / "something");
-  const fs::path target = made(elsewhere.path() / "target");
+  const auto marked = [&](const fs::path& path) {
+    std::ofstream(made(path) / "of-a-process-of-grainstep");
+    return path;
+  };
+  const fs::path of_a_user = made(parent.path() / "grainstep-aaaaaa");
+  const fs::path foreign = marked(parent.path() / "something");
+  const fs::path target = marked(elsewhere.path() / "target");
   const fs::path link = parent.path() / "grainstep-bbbbbb";
   fs::create_directory_symlink(target, link);
-  const fs::path open_to_all = made(parent.path() / "grainstep-cccccc");
+  const fs::path open_to_all = marked(parent.path() / "grainstep-cccccc");
   fs::permissions(open_to_all, fs::perms::all);
   std::ofstream(parent.path() / "grainstep-dddddd") << "x";
-  const fs::path left = made(parent.path() / "grainstep-eeeeee");
+  const fs::path linked_mark = made(parent.path() / "grainstep-eeeeee");
+  fs::create_symlink(target / "file", linked_mark / "of-a-process-of-grainstep");
+  const fs::path pipe_as_mark = made(parent.path() / "grainstep-ffffff");
+  ASSERT_EQ(::mkfifo((pipe_as_mark / "of-a-process-of-grainstep").c_str(), 0600), 0);
+  const fs::path left = marked(parent.path() / "grainstep-gggggg");
   remove_abandoned_directories(parent.path());
-  for (const fs::path& kept : {new_one, foreign, target, link, open_to_all, parent.path() / "grainstep-dddddd"}) {
+  for (const fs::path& kept :
+       {of_a_user, foreign, target, link, open_to_all, parent.path() / "grainstep-dddddd", linked_mark, pipe_as_mark}) {
     EXPECT_TRUE(fs::exists(kept)) << kept;
   }
   EXPECT_TRUE(fs::exists(target / "file"));
