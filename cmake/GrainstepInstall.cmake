@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS grainstep grainstep-study grainstep-dem grainstep-grains grainstep-fe grainstep-keys RUNTIME COMPONENT programs)
+install(TARGETS grainstep grainstep-study grainstep-dem grainstep-grains grainstep-fe grainstep-keys grainstep-replay RUNTIME COMPONENT programs)
 
 # What an unmodified LAMMPS loads, and the script that loads it.
 install(TARGETS grainstep_lammps LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT programs)

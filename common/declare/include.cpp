@@ -63,7 +63,8 @@ class Includer {
       throw InputError(path.string() + ": " + std::to_string(size) + " bytes; a scene has at most " +
                        std::to_string(largest_file));
     }
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream;
+    if (regular) stream.open(path, std::ios::binary);  // a pipe would keep us waiting for its other end
     std::ostringstream text;
     if (regular && size > 0) text << stream.rdbuf();
     if (!regular || !stream) {

@@ -12,7 +12,10 @@ namespace grainstep::ledger {
 namespace observable {
 // of the impactor
 inline constexpr std::string_view work_on_surface = "work_on_surface";  // J, since t = 0
-inline constexpr std::string_view overlap = "max_overlap";              // over the diameter, since the last report
+// of a recorded load: how fast the surface gives way, and beyond the recorded one, over the impactor's speed
+inline constexpr std::string_view surface_speed_ratio = "surface_speed_ratio";
+inline constexpr std::string_view surface_speed_departure = "surface_speed_departure";
+inline constexpr std::string_view overlap = "max_overlap";  // over the diameter, since the last report
 // of the structure
 inline constexpr std::string_view deflection = "deflection";                                  // m, back face, mid-span
 inline constexpr std::string_view peak_deflection = "peak_deflection";                        // m, of all steps so far
@@ -56,6 +59,8 @@ inline constexpr CataloguedObservable catalogue[] = {
     {wire::IMPACTOR, "circumferential_work", "J"},
     {wire::IMPACTOR, observable::work_on_surface, "J"},
     {wire::IMPACTOR, "work_on_particles", "J"},
+    {wire::IMPACTOR, observable::surface_speed_ratio, ""},
+    {wire::IMPACTOR, observable::surface_speed_departure, ""},
 };
 
 /// Of a catalogued observable; nothing for one of a participant's own.

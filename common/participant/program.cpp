@@ -4,7 +4,8 @@
 #include <cstdio>
 
 #include "base/error.hpp"
-#include "participant/positive_number.hpp"
+#include "base/room.hpp"
+#include "participant/seconds_to_wait.hpp"
 
 namespace grainstep::participant {
 namespace {
@@ -14,7 +15,7 @@ void add_connect_options(CLI::App& app, ConnectOptions& options) {
       ->required();
   app.add_option("--curve-dir", options.curve_dir, "Directory with participant.key and orchestrator.pub");
   app.add_option("--connect-deadline", options.connect_deadline_s, "Seconds to wait for the orchestrator's answer")
-      ->check(positive_number())
+      ->check(seconds_to_wait())
       ->capture_default_str();
   app.add_flag("--allow-plain-tcp", options.allow_plain_tcp, "Unencrypted tcp beyond this host");
   app.add_option("--data-listen", options.data_listen,
@@ -74,6 +75,7 @@ int Program::run(const std::function<int(transport::Channel&)>& serve) const {
     return static_cast<int>(code);
   };
   try {
+    base::require_room();
     const auto channel = open(connect_);
     return serve(*channel);
   } catch (const InputError& error) {

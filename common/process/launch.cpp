@@ -14,7 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_program(const fs::path& path) { return fs::is_regular_file(path) && ::access(path.c_str(), X_OK) == 0; }
+/// A folder that may not be looked into holds none.
+bool is_program(const fs::path& path) {
+  std::error_code refused;
+  return fs::is_regular_file(path, refused) && ::access(path.c_str(), X_OK) == 0;
+}
 
 std::optional<fs::path> in_path(const std::string& name) {
   const char* path = std::getenv("PATH");

@@ -129,8 +129,7 @@ void File::label(hid_t object, const Meaning& meaning) const {
   text_attribute(object, "title", meaning.title);
 }
 
-Handle File::make_extendable(const std::string& dataset, std::size_t columns, hid_t type,
-                             const Meaning& meaning) const {
+Handle File::make_extendable(const std::string& dataset, std::size_t columns, Kind kind, const Meaning& meaning) const {
   constexpr hsize_t chunk_values = 8192;  // 64 KiB: one or few chunks for a time series, little slack for short ones
   const std::array<hsize_t, 2> none = {0, columns};
   const std::array<hsize_t, 2> most = {H5S_UNLIMITED, columns};
@@ -140,22 +139,27 @@ Handle File::make_extendable(const std::string& dataset, std::size_t columns, hi
   const Handle space = take(H5Screate_simple(rank, none.data(), most.data()), H5Sclose, dataset);
   const Handle creation = take(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, dataset);
   require(H5Pset_chunk(creation.get(), rank, chunk.data()), dataset);
+  if (kind.packing == Packing::packed) {
+    require(H5Pset_shuffle(creation.get()), dataset);  // bytes of equal weight together: what hardly changes is equal
+    require(H5Pset_deflate(creation.get(), 1), dataset);
+    require(H5Pset_fletcher32(creation.get()), dataset);
+  }
   require(H5Pset_obj_track_times(creation.get(), false), dataset);
   Handle out =
-      take(H5Dcreate2(file_.get(), dataset.c_str(), type, space.get(), links_.get(), creation.get(), H5P_DEFAULT),
+      take(H5Dcreate2(file_.get(), dataset.c_str(), kind.type, space.get(), links_.get(), creation.get(), H5P_DEFAULT),
            H5Dclose, dataset);
   label(out.get(), meaning);
   return out;
 }
 
 void File::append_rows(const std::string& dataset, const void* values, std::size_t count, std::size_t columns,
-                       hid_t type, const Meaning& meaning) {
+                       Kind kind, const Meaning& meaning) {
   if (count == 0) {
     return;
   }
   const int rank = columns == 0 ? 1 : 2;
   const Handle target = has(dataset) ? take(H5Dopen2(file_.get(), dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset)
-                                     : make_extendable(dataset, columns, type, meaning);
+                                     : make_extendable(dataset, columns, kind, meaning);
   std::array<hsize_t, 2> shape{};
   {
     const Handle space = take(H5Dget_space(target.get()), H5Sclose, dataset);
@@ -168,16 +172,16 @@ void File::append_rows(const std::string& dataset, const void* values, std::size
   const Handle space = take(H5Dget_space(target.get()), H5Sclose, dataset);
   require(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), dataset);
   const Handle memory = take(H5Screate_simple(rank, block.data(), nullptr), H5Sclose, dataset);
-  require(H5Dwrite(target.get(), type, memory.get(), space.get(), H5P_DEFAULT, values), dataset);
+  require(H5Dwrite(target.get(), kind.type, memory.get(), space.get(), H5P_DEFAULT, values), dataset);
 }
 
 void File::append(const std::string& dataset, std::span<const double> values, std::size_t columns,
-                  const Meaning& meaning) {
-  append_rows(dataset, values.data(), values.size(), columns, H5T_IEEE_F64LE, meaning);
+                  const Meaning& meaning, Packing packing) {
+  append_rows(dataset, values.data(), values.size(), columns, {H5T_IEEE_F64LE, packing}, meaning);
 }
 
 void File::append(const std::string& dataset, std::span<const std::uint64_t> values, const Meaning& meaning) {
-  append_rows(dataset, values.data(), values.size(), 0, H5T_STD_U64LE, meaning);
+  append_rows(dataset, values.data(), values.size(), 0, {H5T_STD_U64LE}, meaning);
 }
 
 void File::write_array(const std::string& dataset, const void* values, std::size_t count, std::size_t columns,
@@ -274,6 +278,29 @@ std::vector<double> File::read_doubles(const std::string& dataset) const {
     require(H5Dread(source.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()), dataset);
   }
   return out;
+}
+
+File::Shape File::shape(const std::string& dataset) const {
+  const Handle source = take(H5Dopen2(file_.get(), dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset);
+  const Handle space = take(H5Dget_space(source.get()), H5Sclose, dataset);
+  std::array<hsize_t, 2> extent{};
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank < 1 || rank > 2) fail(dataset + " has " + std::to_string(rank) + " dimensions, expected 1 or 2");
+  require(H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr), dataset);
+  return {.rows = extent[0], .columns = rank == 2 ? extent[1] : 0};
+}
+
+void File::read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t rows, std::span<double> out) const {
+  const Handle source = take(H5Dopen2(file_.get(), dataset.c_str(), H5P_DEFAULT), H5Dclose, dataset);
+  const Shape whole = shape(dataset);
+  const std::array<hsize_t, 2> start = {first, 0};
+  const std::array<hsize_t, 2> block = {rows, whole.columns};
+  if (first + rows > whole.rows || out.size() < rows * std::max<std::uint64_t>(whole.columns, 1))
+    fail(dataset + ": rows that are not there were asked for");
+  const Handle space = take(H5Dget_space(source.get()), H5Sclose, dataset);
+  require(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), dataset);
+  const Handle memory = take(H5Screate_simple(whole.columns == 0 ? 1 : 2, block.data(), nullptr), H5Sclose, dataset);
+  require(H5Dread(source.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, out.data()), dataset);
 }
 
 std::string File::read_text(const std::string& dataset) const {

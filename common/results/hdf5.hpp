@@ -40,6 +40,9 @@ struct Meaning {
   std::string title;  ///< one line
 };
 
+/// How rows lie in the file. Packed ones are compressed without loss, and each chunk has a checksum.
+enum class Packing { none, packed };
+
 class File {
  public:
   [[nodiscard]] static File create(const std::filesystem::path& path);  ///< the file must not exist
@@ -47,7 +50,8 @@ class File {
   [[nodiscard]] static File read(const std::filesystem::path& path);    ///< for reading only
 
   /// Appends rows to a dataset of shape [rows x columns] ([rows] when columns == 0), made on first use with its groups.
-  void append(const std::string& dataset, std::span<const double> values, std::size_t columns, const Meaning& meaning);
+  void append(const std::string& dataset, std::span<const double> values, std::size_t columns, const Meaning& meaning,
+              Packing packing = Packing::none);
   void append(const std::string& dataset, std::span<const std::uint64_t> values, const Meaning& meaning);
 
   /// A dataset that is written once. Shape [n], or [n / columns x columns].
@@ -65,6 +69,13 @@ class File {
   [[nodiscard]] bool has(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> datasets() const;
   [[nodiscard]] std::vector<double> read_doubles(const std::string& dataset) const;
+  /// Rows and columns of a dataset of numbers; columns of a vector: 0.
+  struct Shape {
+    std::uint64_t rows = 0, columns = 0;
+  };
+  [[nodiscard]] Shape shape(const std::string& dataset) const;
+  /// `rows` rows from the `first` on, as many as `out` has room for.
+  void read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t rows, std::span<double> out) const;
   [[nodiscard]] std::string read_text(const std::string& dataset) const;
 
   /// Closes the file: everything is on its way to the disk when this returns.
@@ -75,11 +86,15 @@ class File {
   [[noreturn]] void fail(const std::string& what) const;
   [[nodiscard]] Handle take(hid_t id, Handle::Closer closer, const std::string& what) const;
   void require(herr_t result, const std::string& what) const;
-  void append_rows(const std::string& dataset, const void* values, std::size_t count, std::size_t columns, hid_t type,
+  struct Kind {
+    hid_t type;
+    Packing packing = Packing::none;
+  };
+  void append_rows(const std::string& dataset, const void* values, std::size_t count, std::size_t columns, Kind kind,
                    const Meaning& meaning);
   void write_array(const std::string& dataset, const void* values, std::size_t count, std::size_t columns, hid_t type,
                    const Meaning& meaning);
-  [[nodiscard]] Handle make_extendable(const std::string& dataset, std::size_t columns, hid_t type,
+  [[nodiscard]] Handle make_extendable(const std::string& dataset, std::size_t columns, Kind kind,
                                        const Meaning& meaning) const;
   void label(hid_t object, const Meaning& meaning) const;
   void text_attribute(hid_t object, const char* name, const std::string& text) const;

@@ -98,6 +98,7 @@ void ResultsFile::add(const Line& line) {
   Rows& rows = pending_.rows[line.dataset];
   rows.meaning = line.meaning;
   rows.columns = line.values.size();
+  rows.packing = line.packing;
   rows.values.insert(rows.values.end(), line.values.begin(), line.values.end());
   ++contents_[line.dataset];
   pending_.bytes += line.values.size() * sizeof(double);
@@ -111,7 +112,7 @@ void ResultsFile::add(Array array) {
 
 void ResultsFile::Burst::write_to(h5::File& file) const {
   for (const auto& [dataset, kept] : rows) {
-    file.append(dataset, kept.values, kept.columns, kept.meaning);
+    file.append(dataset, kept.values, kept.columns, kept.meaning, kept.packing);
   }
   for (const Array& array : arrays) {
     if (array.indices.empty()) {

@@ -26,6 +26,7 @@ struct Line {
   std::string dataset;
   h5::Meaning meaning;
   std::vector<double> values;
+  h5::Packing packing = h5::Packing::none;
 };
 
 /// Something written once, when the next burst comes.
@@ -74,6 +75,7 @@ class ResultsFile {
     h5::Meaning meaning;
     std::size_t columns = 0;
     std::vector<double> values;
+    h5::Packing packing = h5::Packing::none;
   };
 
   /// What one burst writes.

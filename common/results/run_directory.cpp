@@ -65,10 +65,13 @@ bool RunDirectory::holds_a_run() const { return is_there(results()) || is_there(
 
 void RunDirectory::remove_run() const {
   std::error_code error;
-  std::vector<fs::path> files = {summary(), results(), scene()};
+  std::vector<fs::path> files = {summary(), results(), record(), scene()};
   for (const char* name : series_names) files.push_back(series(name));
   for (std::size_t i = 0, whole = files.size(); i < whole; ++i) files.emplace_back(files[i].string() + ".part");
-  for (const char* left : TwinFile::leftovers) files.emplace_back(results().string() + left);
+  for (const char* left : TwinFile::leftovers) {
+    files.emplace_back(results().string() + left);
+    files.emplace_back(record().string() + left);
+  }
   for (const fs::path& folder : {paraview(), logs(), checkpoints()}) {
     if (!error) {
       const std::vector<fs::path> own = own_files_in(folder, error);

@@ -34,6 +34,7 @@ class RunDirectory {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path lock() const { return path_ / "run.lock"; }
   [[nodiscard]] std::filesystem::path results() const { return path_ / "results.h5"; }
+  [[nodiscard]] std::filesystem::path record() const { return path_ / "surface.h5"; }
   [[nodiscard]] std::filesystem::path summary() const { return path_ / "summary.json"; }
   [[nodiscard]] std::filesystem::path scene() const { return path_ / "scene.resolved.yaml"; }
   [[nodiscard]] std::filesystem::path series(const std::string& name) const { return path_ / (name + ".pvd"); }

@@ -45,10 +45,18 @@ const Layer* yielding_layer(const Structure& structure) {
   return structure.type() == Structure::TYPE_RIGID && structure.layers_size() > 0 ? &structure.layers(0) : nullptr;
 }
 
+bool is_described_elsewhere(const Impactor& impactor) {
+  return impactor.type() == Impactor::TYPE_EXTERNAL || impactor.type() == Impactor::TYPE_REPLAY;
+}
+
+bool is_described_elsewhere(const Structure& structure) {
+  return structure.type() == Structure::TYPE_EXTERNAL || structure.type() == Structure::TYPE_REPLAY;
+}
+
 bool has_slug(const Scene& scene) {
   const Impactor& impactor = scene.impactor();
   return impactor.type() == Impactor::TYPE_SLUG || impactor.type() == Impactor::TYPE_FOAM ||
-         (impactor.type() == Impactor::TYPE_EXTERNAL && impactor.has_slug());
+         (is_described_elsewhere(impactor) && impactor.has_slug());
 }
 
 Span loaded_face(const Structure& structure) {

@@ -65,6 +65,11 @@ struct Groups {
   double end = 0;                 ///< end of the run, s; not a number: a t_bar without a reference time
 };
 
+/// Whether something else than the scene says what this is; the scene's slug, or span and layers, then only describe
+/// it.
+[[nodiscard]] bool is_described_elsewhere(const Impactor& impactor);
+[[nodiscard]] bool is_described_elsewhere(const Structure& structure);
+
 /// Whether the scene's impactor is described by its slug.
 [[nodiscard]] bool has_slug(const Scene& scene);
 

@@ -1,6 +1,7 @@
 #include "scene/load.hpp"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -38,23 +39,34 @@ void refuse_other_kind(const declare::Tree& tree, const std::string& file, const
   throw InputError(file + ": is " + advice + " (it has the keys " + declare::join_words(of_other) + ")");
 }
 
+/// `problems`: those of the file.
+void fill(declare::Tree& tree, declare::Problems problems, std::span<const declare::Override> overrides,
+          Message& message) {
+  for (const auto& one : overrides) declare::apply_override(tree, one, problems);
+  const std::unique_ptr<Message> read(message.New());
+  declare::read_message(tree, "", *read, problems);
+  problems.throw_if_any();
+  message.GetReflection()->Swap(&message, read.get());
+}
+
 }  // namespace
 
 declare::Tree load(const std::filesystem::path& path, std::span<const declare::Override> overrides, Message& message) {
   declare::Problems problems;
   declare::Tree tree = declare::read_file(path, problems);
   refuse_other_kind(tree, path.string(), *message.GetDescriptor());
-  for (const auto& one : overrides) declare::apply_override(tree, one, problems);
-  const std::unique_ptr<Message> read(message.New());
-  declare::read_message(tree, "", *read, problems);
-  problems.throw_if_any();
-  message.GetReflection()->Swap(&message, read.get());
+  fill(tree, std::move(problems), overrides, message);
   return tree;
 }
 
-Scene load_scene(const std::filesystem::path& path, std::span<const declare::Override> overrides) {
+SceneFile::SceneFile(const std::filesystem::path& path) : tree_(declare::read_file(path, problems_)) {
+  refuse_other_kind(tree_, path.string(), *Scene::descriptor());
+}
+
+Scene SceneFile::with(std::span<const declare::Override> overrides) const {
   Scene scene;
-  const declare::Tree tree = load(path, overrides, scene);
+  declare::Tree tree = tree_;
+  fill(tree, problems_, overrides, scene);
   declare::Problems problems;
   for (const auto& finding : check_rules(scene)) {
     if (finding.severity == Severity::error)
@@ -63,6 +75,10 @@ Scene load_scene(const std::filesystem::path& path, std::span<const declare::Ove
   problems.throw_if_any();
   resolve_cores(scene);
   return scene;
+}
+
+Scene load_scene(const std::filesystem::path& path, std::span<const declare::Override> overrides) {
+  return SceneFile(path).with(overrides);
 }
 
 Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {

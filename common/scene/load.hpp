@@ -12,6 +12,7 @@
 #include <string>
 
 #include "declare/overrides.hpp"
+#include "declare/problems.hpp"
 #include "grainstep/scene.pb.h"
 
 namespace grainstep::scene {
@@ -22,7 +23,20 @@ namespace grainstep::scene {
 declare::Tree load(const std::filesystem::path& path, std::span<const declare::Override> overrides,
                    google::protobuf::Message& message);
 
-/// The same for a scene, and the rules between its keys (rules.hpp).
+/// A scene's file with what it includes, read once for any number of scenes that differ in their overrides.
+class SceneFile {
+ public:
+  explicit SceneFile(const std::filesystem::path& path);
+
+  /// As load(), and the rules between the scene's keys (rules.hpp).
+  [[nodiscard]] Scene with(std::span<const declare::Override> overrides) const;
+
+ private:
+  declare::Problems problems_;
+  declare::Tree tree_;
+};
+
+/// The same for one scene.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& path, std::span<const declare::Override> overrides);
 
 /// With the overrides of a command line.

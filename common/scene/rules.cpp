@@ -64,9 +64,20 @@ void deck_is_one(const Deck& deck, Findings& findings) {
   }
 }
 
+/// A record is named where one is played, and nowhere else.
+void replay_is_read(const std::string& side, bool replays, bool named, Findings& findings) {
+  if (replays == named) return;
+  findings.push_back(replays
+                         ? Finding{Severity::error, side,
+                                   "required key 'replay' is missing: " + side + ".type is replay, of which run?"}
+                         : Finding{Severity::error, side + ".replay",
+                                   "nobody would read it: " + side + ".type is not replay; set it, or leave this out"});
+}
+
 /// What a structure of ours needs. One of one's own may leave it out, and has then no dimensionless groups.
 void structure_is_described(const Structure& structure, Findings& findings) {
-  if (structure.type() == Structure::TYPE_EXTERNAL) return;
+  replay_is_read("structure", structure.type() == Structure::TYPE_REPLAY, structure.has_replay(), findings);
+  if (is_described_elsewhere(structure)) return;
   const auto missing = [&findings](const char* key, const char* what) {
     findings.push_back({Severity::error, "structure", std::string("required key '") + key + "' is missing: " + what});
   };
@@ -81,6 +92,7 @@ void impactor_is_described(const Impactor& impactor, bool slug, Findings& findin
     findings.push_back({Severity::error, "impactor",
                         "required key 'slug' is missing: what hits, unless impactor.type is pressure or none"});
   }
+  replay_is_read("impactor", impactor.type() == Impactor::TYPE_REPLAY, impactor.has_replay(), findings);
   const bool deck = impactor.type() == Impactor::TYPE_DECK;
   if (deck != impactor.has_deck()) {
     findings.push_back(
@@ -168,10 +180,11 @@ void motion_is_read(const Structure& structure, Findings& findings) {
 void symmetry_fits(const Scene& scene, Findings& findings) {
   const bool ring = scene.symmetry() == SYMMETRY_AXISYMMETRIC;
   const Structure& structure = scene.structure();
-  if (scene.symmetry() == SYMMETRY_NONE && structure.type() != Structure::TYPE_EXTERNAL) {
-    findings.push_back({Severity::error, "symmetry",
-                        "none is for structures of the type external: ours compute in plane strain, or as solids of "
-                        "revolution"});
+  if (scene.symmetry() == SYMMETRY_NONE && !is_described_elsewhere(structure)) {
+    findings.push_back(
+        {Severity::error, "symmetry",
+         "none is for structures of the types external and replay: ours compute in plane strain, or as solids of "
+         "revolution"});
   }
   if (ring && structure.type() == Structure::TYPE_BEAM) {
     findings.push_back({Severity::error, "structure.type",

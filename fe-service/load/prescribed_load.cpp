@@ -34,8 +34,7 @@ wire::Ready PrescribedLoad::prepare(const wire::Setup& setup) {
   }
   measure_ = make_measure(setup.symmetry(), setup.depth());
   now_.assign(surface.position().begin(), surface.position().end());
-  velocity_.assign(surface.velocity().begin(), surface.velocity().end());
-  velocity_.resize(now_.size(), 0.0);
+  account_ = load::SurfaceAccount(surface);
   for (Doubles* nodal : {&before_, &between_, &impulse_, &last_step_}) *nodal = Doubles(now_.size(), 0.0);
   wire::Ready ready;
   ready.set_scene_hash(setup.scene_hash());
@@ -66,29 +65,10 @@ void PrescribedLoad::evaluate(std::uint64_t window) {
   for (std::size_t i = 0; i < now_.size(); ++i) impulse_[i] += last_step_[i];
 }
 
-/// Up to t(n): what the steps before it gave, and the half of the step around it that lies behind. The whole of the
-/// first, half step lies ahead.
-void PrescribedLoad::account(std::uint64_t window) {
-  const double ahead = window == 0 ? 1.0 : 0.5;
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    const double behind = impulse_[i] - ahead * last_step_[i];
-    counted_[i % 2] += behind;
-    work_ += behind * velocity_[i];
-  }
-}
-
-/// The surface at the end of the window that has just passed, and what was still ahead of the step at its start. The
-/// structure pairs the two halves of an impulse with the velocities before and after it; so does this side.
 void PrescribedLoad::take(const wire::Kinematics& surface) {
-  const bool first = surface.window() == 1;
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    const double coming = surface.velocity(static_cast<int>(i));
-    counted_[i % 2] += (first ? 1.0 : 0.5) * last_step_[i];
-    work_ += 0.5 * last_step_[i] * (first ? velocity_[i] + coming : coming);
-  }
+  account_.take(surface);
   before_.swap(now_);
   now_.assign(surface.position().begin(), surface.position().end());
-  velocity_.assign(surface.velocity().begin(), surface.velocity().end());
 }
 
 void PrescribedLoad::run(const wire::Start& start, participant::ImpactorLink& link) {
@@ -113,7 +93,7 @@ void PrescribedLoad::hand_over(std::uint64_t window, participant::ImpactorLink& 
   forces.set_window(window);
   forces.mutable_impulse()->Assign(impulse_.begin(), impulse_.end());
   link.send(forces);
-  account(window);
+  account_.give(window, impulse_, last_step_);
   const participant::Due due = link.due(window);
   if (due.report) send_report(window, link);
   if (due.snapshot) {
@@ -126,9 +106,9 @@ void PrescribedLoad::hand_over(std::uint64_t window, participant::ImpactorLink& 
 void PrescribedLoad::send_report(std::uint64_t window, participant::ImpactorLink& link) const {
   wire::Report report;
   report.set_window(window);
-  report.mutable_energy()->set_interface_work(-work_);
-  report.mutable_energy()->set_support_work(work_);
-  for (const double given : counted_) {
+  report.mutable_energy()->set_interface_work(-account_.work());
+  report.mutable_energy()->set_support_work(account_.work());
+  for (const double given : account_.impulse()) {
     report.mutable_momentum()->add_linear(0.0);
     report.mutable_momentum()->add_interface_impulse(-given);
     report.mutable_momentum()->add_support_impulse(given);
@@ -137,7 +117,7 @@ void PrescribedLoad::send_report(std::uint64_t window, participant::ImpactorLink
     const double time = static_cast<double>(window * steps_) * step_;
     add_observable(report, "prescribed_pressure", "Pa", load::pressure_at(*pressure_, time));
   }
-  add_observable(report, "work_on_surface", "J", work_);
+  add_observable(report, "work_on_surface", "J", account_.work());
   report.mutable_timing()->set_steps(window * steps_);
   link.send(report);
 }

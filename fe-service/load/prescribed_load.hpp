@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "fe-service/load/loaded_patch.hpp"
+#include "load/surface_account.hpp"
 #include "participant/backend.hpp"
 
 namespace grainstep::fe {
@@ -29,10 +30,7 @@ class PrescribedLoad final : public participant::ImpactorBackend {
   template <class Archive>
   void serialize(Archive& archive) {
     archive.fixed("surface", now_);
-    archive.fixed("velocity", velocity_);
-    archive.fixed("last step", last_step_);
-    archive("given", counted_);
-    archive("work", work_);
+    archive("account", account_);
   }
 
  private:
@@ -40,7 +38,6 @@ class PrescribedLoad final : public participant::ImpactorBackend {
 
   [[nodiscard]] double step_impulse(std::uint64_t step) const;
   void evaluate(std::uint64_t window);
-  void account(std::uint64_t window);
   void take(const wire::Kinematics& surface);
   void hand_over(std::uint64_t window, participant::ImpactorLink& link);
   void send_report(std::uint64_t window, participant::ImpactorLink& link) const;
@@ -52,11 +49,9 @@ class PrescribedLoad final : public participant::ImpactorBackend {
   std::uint32_t steps_ = 1;
 
   Doubles before_, now_, between_;  ///< m, surface at the last two exchanges, and between them
-  Doubles velocity_;                ///< m/s, that carried it there; at the start the initial one
   Doubles impulse_;                 ///< N s, nodal, of this window
   Doubles last_step_;               ///< N s, nodal, of this window's last step
-  double counted_[2] = {0.0, 0.0};  ///< N s, given up to now
-  double work_ = 0.0;               ///< J, done up to now
+  load::SurfaceAccount account_;
 };
 
 }  // namespace grainstep::fe

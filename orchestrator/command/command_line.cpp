@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "declare/suggest.hpp"
 #include "orchestrator/record/build_info.hpp"
-#include "participant/positive_number.hpp"
+#include "participant/seconds_to_wait.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -42,9 +42,9 @@ void add_run_options(CLI::App* run, RunOptions& options) {
       ->capture_default_str();
   run->add_flag("--quiet", options.quiet, "No progress, no summary on the terminal");
   run->add_option("--connect-deadline", options.deadlines.connect_s, "Seconds until both participants must be there")
-      ->check(participant::positive_number());
+      ->check(participant::seconds_to_wait());
   run->add_option("--step-deadline", options.deadlines.step_s, "Seconds of silence after which a participant is lost")
-      ->check(participant::positive_number());
+      ->check(participant::seconds_to_wait());
   run->add_option("--external", options.external, "A participant that somebody else starts: impactor or structure")
       ->check(CLI::IsMember({"impactor", "structure"}))
       ->allow_extra_args(false);
@@ -119,7 +119,7 @@ CLI::App* add_conformance(CLI::App& app, ConformanceOptions& options) {
       ->allow_extra_args(false);
   conformance->add_option("--only", options.only, "A clause by its name; may be repeated")->allow_extra_args(false);
   conformance->add_option("--patience", options.patience_s, "Seconds that any one answer may take")
-      ->check(participant::positive_number());
+      ->check(participant::seconds_to_wait());
   conformance->add_option("command", options.command, "The participant's command; --connect ENDPOINT is added to it");
   return conformance;
 }

@@ -12,9 +12,11 @@
 #include "orchestrator/record/build_info.hpp"
 #include "orchestrator/record/recorder.hpp"
 #include "orchestrator/record/summary.hpp"
+#include "orchestrator/record/surface_record.hpp"
 #include "orchestrator/session/session.hpp"
 #include "results/atomic_file.hpp"
 #include "results/checkpoints.hpp"
+#include "scene/needs.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -75,15 +77,18 @@ class Run {
     const wire::Ready& structure = hub_.structure().ready;
     if (is_of_particles(impactor)) groups_ = scene::groups(p.scene, impactor.mass());
     progress_.emplace(stdout, how_.progress, Progress::Scale{plan_->windows, plan_->window, groups_.reference_time});
+    begin_record();
     recorder_.emplace(Recorder::Context{.scene = p.scene,
                                         .groups = groups_,
                                         .plan = *plan_,
                                         .surface = structure.surface(),
                                         .masses = {impactor.mass(), structure.mass()},
                                         .levels = {impactor.ledger(), structure.ledger()},
-                                        .keep = keeper()},
+                                        .keep = keeper(),
+                                        .record = record_ ? &*record_ : nullptr},
                       how_.directory, *file_, [this](std::uint64_t window) { progress_->tick(window); });
     if (how_.resume != nullptr) restore_recorder();
+    schedule_checkpoints();
     background_.emplace(*recorder_);
     session_.run(*plan_, *background_);
   }
@@ -118,9 +123,21 @@ class Run {
   }
 
  private:
-  static std::function<bool()> save_when(const Conduct& how) {
+  static std::function<bool(std::uint64_t)> save_when(const Conduct& how) {
     if (how.schedule == nullptr) return {};
-    return [schedule = how.schedule] { return schedule->due(); };
+    return [schedule = how.schedule](std::uint64_t window) { return schedule->due(window); };
+  }
+
+  void schedule_checkpoints() {
+    const std::uint32_t wanted = how_.preparation.scene.output().checkpoints();
+    if (wanted == 0 || how_.schedule == nullptr) return;
+    if (!Saving(hub_).possible()) {
+      std::fprintf(stderr,
+                   "grainstep: warning: output.checkpoints: there will be none: one of the sides cannot save\n");
+      return;
+    }
+    const std::uint64_t done = how_.resume != nullptr ? how_.resume->checkpoint.window : 0;
+    how_.schedule->spread(wanted, plan_->windows, done);
   }
 
   [[nodiscard]] About about() const {
@@ -143,6 +160,27 @@ class Run {
     file_.emplace(how_.directory.results(), texts(p));
     file_->add(results::Array{
         .dataset = "/scene/end", .meaning = {"s", "when the run is to end"}, .values = {p.groups.end}, .indices = {}});
+  }
+
+  void begin_record() {
+    const scene::Scene& scene = how_.preparation.scene;
+    if (!scene.output().record()) return;
+    record::About about;
+    about.set_title(scene.title());
+    about.set_scene_hash(how_.preparation.hash);
+    about.set_symmetry(scene.symmetry());
+    about.set_depth(scene.depth());
+    about.set_mirror(scene::has_mirror(scene));
+    about.set_dimension(scene::surface_dimension(scene));
+    about.set_window(plan_->window);
+    if (scene::has_slug(scene)) about.set_impactor_speed(scene.impactor().slug().speed());
+    *about.mutable_impactor() = hub_.impactor().ready;
+    *about.mutable_structure() = hub_.structure().ready;
+    if (how_.resume != nullptr) {
+      record_.emplace(how_.directory.record(), about, how_.resume->checkpoint.window);
+    } else {
+      record_.emplace(how_.directory.record(), about);
+    }
   }
 
   /// Called in the recorder's thread.
@@ -229,6 +267,7 @@ class Run {
   scene::Groups groups_ = how_.preparation.groups;  // of an external impactor's own mass, once it is known
   std::optional<StepPlan> plan_;
   std::optional<results::ResultsFile> file_;
+  std::optional<SurfaceRecord> record_;
   std::optional<Progress> progress_;
   std::optional<Recorder> recorder_;
   std::optional<BackgroundObserver> background_;  // works with all of the above: ends first

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/room.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -19,6 +20,7 @@ int end_of_program(const std::function<int()>& act) {
   // A limit on the size of files is a full disk: the write fails and says so. By itself this signal ends a program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
+    base::require_room();
     return act();
   } catch (const InputError& error) {
     return fail(ExitCode::bad_input, error);

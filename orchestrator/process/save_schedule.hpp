@@ -1,7 +1,9 @@
-/// @file When a run asks for checkpoints: every so many seconds, and once more before it is ended from outside.
+/// @file When a run asks for checkpoints: every so many seconds, at windows that are spread over the run, and once more
+/// before it is ended from outside.
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
 #include "transport/channel.hpp"
 
@@ -12,8 +14,12 @@ class SaveSchedule {
   /// `every_s`: 0 for never, but at an end from outside.
   explicit SaveSchedule(double every_s) : every_s_(every_s) {}
 
-  /// Asked now and then. Throws Interrupted once the last checkpoint is written, or took too long.
-  [[nodiscard]] bool due();
+  /// And `count` times in `windows` windows, equally spaced, of which `done` lie behind.
+  void spread(std::uint32_t count, std::uint64_t windows, std::uint64_t done);
+
+  /// Asked now and then, with the window that is under way. Throws Interrupted once the last checkpoint is written, or
+  /// took too long.
+  [[nodiscard]] bool due(std::uint64_t window);
 
   /// A checkpoint is in its file. From any thread.
   void written() { ++written_; }
@@ -25,7 +31,11 @@ class SaveSchedule {
   void end_after_next();
 
  private:
+  [[nodiscard]] bool passes_a_mark(std::uint64_t window);
+
   double every_s_;
+  double every_windows_ = 0.0;  ///< 0: none are spread
+  double next_mark_ = 0.0;      ///< window
   transport::Clock::time_point last_ = transport::Clock::now();
   std::atomic<unsigned> written_ = 0;
   bool now_ = false;

@@ -33,6 +33,10 @@ BackgroundObserver::~BackgroundObserver() {
 // Forces come every window: waking the thread for each would cost a switch of tasks that the particles wait for.
 void BackgroundObserver::forces(const wire::Forces& forces) { put(forces, forces.ByteSizeLong(), Wake::later); }
 
+void BackgroundObserver::kinematics(const wire::Kinematics& kinematics) {
+  put(kinematics, kinematics.ByteSizeLong(), Wake::later);
+}
+
 void BackgroundObserver::report(wire::Role side, const wire::Report& report) {
   put(Report{side, report}, report.ByteSizeLong(), Wake::now);
 }
@@ -101,6 +105,7 @@ void BackgroundObserver::work() {
 void BackgroundObserver::deal_with(std::vector<Event>& events) {
   const Overloaded handler{
       [this](const wire::Forces& forces) { observer_.forces(forces); },
+      [this](const wire::Kinematics& kinematics) { observer_.kinematics(kinematics); },
       [this](const Report& report) { observer_.report(report.side, report.message); },
       [this](Snapshot& snapshot) { observer_.snapshot(snapshot.side, std::move(snapshot.message)); },
       [this](Checkpoint& checkpoint) { observer_.checkpoint(std::move(checkpoint)); }};

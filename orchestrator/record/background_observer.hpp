@@ -26,6 +26,8 @@ class BackgroundObserver final : public StepObserver {
   ~BackgroundObserver() override;
 
   void forces(const wire::Forces& forces) override;
+  void kinematics(const wire::Kinematics& kinematics) override;
+  [[nodiscard]] bool follows_surface() const override { return observer_.follows_surface(); }
   void report(wire::Role side, const wire::Report& report) override;
   void snapshot(wire::Role side, wire::Snapshot snapshot) override;
   void checkpoint(Checkpoint checkpoint) override;
@@ -44,7 +46,7 @@ class BackgroundObserver final : public StepObserver {
     wire::Role side;
     wire::Snapshot message;
   };
-  using Event = std::variant<wire::Forces, Report, Snapshot, Checkpoint>;
+  using Event = std::variant<wire::Forces, wire::Kinematics, Report, Snapshot, Checkpoint>;
 
   enum class Wake { now, later };
   void put(Event event, std::size_t bytes, Wake wake);

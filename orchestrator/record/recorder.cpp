@@ -49,6 +49,7 @@ Recorder::Recorder(const Context& context, const results::RunDirectory& director
       levels_(context.levels),
       tick_(std::move(tick)),
       keep_(context.keep),
+      record_(context.record),
       load_(surface_load(context), {.window = context.plan.window, .steps = context.plan.impactor_steps},
             context.groups.loaded_area),
       sums_(load_.surface().dimension()),
@@ -64,6 +65,7 @@ void Recorder::make_ledger() {
 }
 
 void Recorder::checkpoint(Checkpoint checkpoint) {
+  if (record_ != nullptr) record_->flush();
   file_.flush();
   flushed_ = transport::Clock::now();
   if (keep_) keep_(std::move(checkpoint), base::saved(*this));
@@ -96,7 +98,10 @@ void Recorder::describe_profiles() {
                            .indices = {}});
 }
 
+void Recorder::kinematics(const wire::Kinematics& kinematics) { record_->kinematics(kinematics); }
+
 void Recorder::forces(const wire::Forces& forces) {
+  if (record_ != nullptr) record_->forces(forces);
   const auto impulse = span_of(forces.impulse());
   const std::uint64_t window = forces.window();
   sums_.add(impulse);
@@ -131,6 +136,7 @@ void Recorder::write_profile(std::uint64_t window) {
 }
 
 void Recorder::report(wire::Role side, const wire::Report& report) {
+  if (record_ != nullptr && side == wire::IMPACTOR && report.window() == 0) record_->first_report(report);
   Pending& row = pending_[report.window()];
   (side == wire::IMPACTOR ? row.impactor : row.structure) = report;
   complete_rows();
@@ -186,6 +192,8 @@ void Recorder::remember(std::uint64_t window, const Pending& row, const ledger::
   }
   findings_.peak_core_compression = ledger::find(*row.structure, ledger::observable::peak_core_compression);
   findings_.peak_core_compression_time = ledger::find(*row.structure, ledger::observable::peak_core_compression_time);
+  findings_.surface_speed_ratio = ledger::find(*row.impactor, ledger::observable::surface_speed_ratio);
+  findings_.surface_speed_departure = ledger::find(*row.impactor, ledger::observable::surface_speed_departure);
   findings_.impactor_steps = row.impactor->timing().steps();
   findings_.structure_steps = row.structure->timing().steps();
   const double early = load_.watched()[1] - load_.watched()[0];
@@ -222,11 +230,15 @@ void Recorder::idle() {
     file_.flush();
     flushed_ = transport::Clock::now();
   }
+  if (record_ != nullptr) record_->flush_if_due();
   if (tick_) {
     tick_(findings_.windows);
   }
 }
 
-void Recorder::finish() { file_.flush(); }
+void Recorder::finish() {
+  file_.flush();
+  if (record_ != nullptr) record_->flush();
+}
 
 }  // namespace grainstep::orchestrator

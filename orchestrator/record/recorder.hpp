@@ -14,6 +14,7 @@
 #include "ledger/load_history.hpp"
 #include "orchestrator/record/free_oscillation.hpp"
 #include "orchestrator/record/row.hpp"
+#include "orchestrator/record/surface_record.hpp"
 #include "orchestrator/session/step_observer.hpp"
 #include "orchestrator/session/step_plan.hpp"
 #include "results/results_file.hpp"
@@ -35,6 +36,8 @@ struct Findings {
   std::optional<Oscillation> rest;                   ///< what the structure swings about once the load is over
   std::optional<double> peak_core_compression;       ///< of the core's thickness; nothing without a core
   std::optional<double> peak_core_compression_time;  ///< s
+  std::optional<double> surface_speed_ratio;         ///< of a recorded load
+  std::optional<double> surface_speed_departure;     ///< the same
   std::uint64_t windows = 0;                         ///< seen
   std::uint64_t impactor_steps = 0;
   std::uint64_t structure_steps = 0;
@@ -52,12 +55,15 @@ class Recorder final : public StepObserver {
     /// Given a checkpoint and this recorder's own state at it, with everything before it in the file. Empty: none is
     /// kept.
     std::function<void(Checkpoint, std::string)> keep = {};
+    SurfaceRecord* record = nullptr;  ///< outlives the recorder; nullptr: nobody wants one
   };
   /// `tick` is called when the run has a moment, with the windows seen so far. References must outlive the recorder.
   Recorder(const Context& context, const results::RunDirectory& directory, results::ResultsFile& file,
            std::function<void(std::uint64_t)> tick);
 
   void forces(const wire::Forces& forces) override;
+  void kinematics(const wire::Kinematics& kinematics) override;
+  [[nodiscard]] bool follows_surface() const override { return record_ != nullptr; }
   void report(wire::Role side, const wire::Report& report) override;
   void snapshot(wire::Role side, wire::Snapshot snapshot) override;
   void checkpoint(Checkpoint checkpoint) override;
@@ -143,6 +149,7 @@ class Recorder final : public StepObserver {
   ledger::Levels levels_;
   std::function<void(std::uint64_t)> tick_;
   std::function<void(Checkpoint, std::string)> keep_;
+  SurfaceRecord* record_;
   ledger::LoadHistory load_;
   ledger::ImpulseSums sums_;
   std::optional<FirstReports> first_;

@@ -44,6 +44,15 @@ Json early_pressure(const SummaryInput& in) {
   return *in.findings.early_impulse / (g.slug_pressure * interval * g.slug_time);
 }
 
+/// Of a load that this structure could not change: how far it is from having been there when it was recorded.
+Json recorded_load(const SummaryInput& in) {
+  const auto absent = std::numeric_limits<double>::quiet_NaN();
+  const bool is_one = in.scene.impactor().type() == scene::Impactor::TYPE_REPLAY;
+  return {{"file", is_one ? Json(in.scene.impactor().replay().file()) : Json(nullptr)},
+          {"surface_speed_ratio", number(in.findings.surface_speed_ratio.value_or(absent))},
+          {"surface_speed_departure", number(in.findings.surface_speed_departure.value_or(absent))}};
+}
+
 Json split_of(const SummaryInput& in) {
   return {{"impactor_compute", in.impactor_timing.compute()},
           {"impactor_wait", in.impactor_timing.wait()},
@@ -86,6 +95,7 @@ Json summary(const SummaryInput& in) {
   out["energy_drift"] = in.plan ? number(f.energy_drift) : Json(nullptr);
   out["momentum_error"] = in.plan ? number(f.momentum_error) : Json(nullptr);
   out["ledgers"] = {{"impactor", ledger_word(in.impactor)}, {"structure", ledger_word(in.structure)}};
+  out["recorded_load"] = recorded_load(in);
   const bool mesh = in.impactor.counted() == "elements";
   out["particles"] = mesh ? 0 : in.impactor.size();
   out["impactor_elements"] = mesh ? in.impactor.size() : 0;
@@ -147,6 +157,11 @@ std::string digest(const Json& s) {
     if (s.value("ledgers", Json::object()).value(side, Json()) != "interface") continue;
     out += "\n                     the " + std::string(side) +
            " keeps no books of its own: only what passed the surface was judged";
+  }
+  if (const Json load = s.value("recorded_load", Json()); load.is_object() && load.at("file").is_string()) {
+    out += "\nrecorded load        the surface gives way with " + text_of(load.at("surface_speed_ratio"), "%.2g") +
+           " of the impactor's speed, " + text_of(load.at("surface_speed_departure"), "%+.2g") +
+           " of it beyond the record";
   }
   const Json& split = s.at("wall_split");
   const bool meshed = s.value("impactor_elements", 0.0) > 0.0;

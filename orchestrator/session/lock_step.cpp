@@ -166,7 +166,7 @@ void LockStep::take_what_came() {
 
 void LockStep::save_if_due() {
   if (!save_due_ || next_forces_ > start_.windows()) return;
-  if (save_due_()) saving_.ask();
+  if (save_due_(next_forces_)) saving_.ask();
 }
 
 void LockStep::hand_over_checkpoint() {
@@ -246,6 +246,7 @@ void LockStep::on_kinematics(wire::MessageChannel& from, const wire::Frame& fram
   require_finite(structure, "position in Kinematics", next_forces_, kinematics_.position());
   require_finite(structure, "velocity in Kinematics", next_forces_, kinematics_.velocity());
   require_motion(structure);
+  if (observer_.follows_surface()) observer_.kinematics(kinematics_);
 }
 
 // The impactor moves the surface by the one and computes contact with the other: no ledger would see that they differ.

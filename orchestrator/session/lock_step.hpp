@@ -28,9 +28,9 @@ class LockStep {
 
   void run();
 
-  /// Asked now and then while run() goes on: whether both sides are to be asked for their states, which go to the
-  /// observer as a checkpoint. Nothing where one of them cannot.
-  void save_when(std::function<bool()> due) { save_due_ = std::move(due); }
+  /// Asked now and then while run() goes on, with the window whose Forces come next: whether both sides are to be asked
+  /// for their states, which go to the observer as a checkpoint. Nothing where one of them cannot.
+  void save_when(std::function<bool(std::uint64_t)> due) { save_due_ = std::move(due); }
 
   /// A run that goes on: the surface where it was at the end of the window before (m, nodes x dimension).
   void go_on_from(const std::vector<double>& surface);
@@ -88,7 +88,7 @@ class LockStep {
   wire::Forces forces_;  // kept: their capacity is reused
   wire::Kinematics kinematics_;
   wire::Report report_;
-  std::function<bool()> save_due_;
+  std::function<bool(std::uint64_t)> save_due_;
   Saving saving_;
   bool deaf_ = false;    // listening has failed
   bool structure_owes_;  // Forces were forwarded, the Kinematics they lead to are not here yet

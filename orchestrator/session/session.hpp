@@ -33,9 +33,9 @@ struct Task {
   double end = 0.0;      ///< s
   bool preview = false;  ///< nothing will be started: only what the sides say before is wanted
   Path path = Path::hub;
-  bool one_host = true;                  ///< as far as anybody knows
-  const Checkpoint* resume = nullptr;    ///< what to go on from; the start
-  std::function<bool()> save_when = {};  ///< LockStep::save_when()
+  bool one_host = true;                               ///< as far as anybody knows
+  const Checkpoint* resume = nullptr;                 ///< what to go on from; the start
+  std::function<bool(std::uint64_t)> save_when = {};  ///< LockStep::save_when()
 };
 
 /// Order of calls: introduce, prepare, run (of a preview: introduce, ask, end); and at any time after construction,

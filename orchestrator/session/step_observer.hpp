@@ -16,6 +16,9 @@ class StepObserver {
   virtual ~StepObserver() = default;
 
   virtual void forces(const wire::Forces& forces) = 0;
+  /// The surface at the end of the window that the next Forces belong to. Only told to who follows_surface().
+  virtual void kinematics(const wire::Kinematics& /*kinematics*/) {}
+  [[nodiscard]] virtual bool follows_surface() const { return false; }
   virtual void report(wire::Role side, const wire::Report& report) = 0;
   virtual void snapshot(wire::Role side, wire::Snapshot snapshot) = 0;
 

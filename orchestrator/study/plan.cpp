@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -137,13 +138,19 @@ class Expander {
     return (fs::path(origin(path).source).parent_path() / (node == nullptr ? "" : node->scalar)).lexically_normal();
   }
 
+  /// A study has many points, and few files.
+  const scene::SceneFile& read(const fs::path& file) {
+    const auto known = files_.find(file);
+    return known != files_.end() ? known->second : files_.emplace(file, scene::SceneFile(file)).first->second;
+  }
+
   void prepare(PlannedPoint& point, const Draft& draft) {
     const fs::path file = scene_file(draft.scene);
     if (std::error_code ignored; !fs::is_regular_file(file, ignored)) {
       return complaints_.add(origin(draft.scene), draft.scene, "cannot read '" + file.string() + "': no such file");
     }
     try {
-      scene::Scene scene = scene::load_scene(file, draft.set);
+      scene::Scene scene = read(file).with(draft.set);
       try {
         point.preparation = orchestrator::prepare_unasked(std::move(scene), options_);
         ask(point);
@@ -176,6 +183,7 @@ class Expander {
   std::size_t asked_ = 0;
   double last_estimate_ = 0.0;
   Complaints& complaints_;
+  std::map<fs::path, scene::SceneFile> files_;
   std::set<std::string> series_names_;
   std::set<std::string> point_names_;
 };

@@ -37,7 +37,7 @@ enum class Fidelity {
 
 /// Points whose participants are asked beforehand what they cost and whether they can compute them; those beyond are
 /// asked when they run, and are taken to cost what the last one did.
-inline constexpr std::size_t most_asked = 64;
+inline constexpr std::size_t most_asked = 16;
 
 /// Reads the study and prepares all of its points. @throws InputError with everything that is wrong, one line each.
 /// `options`: of every run.

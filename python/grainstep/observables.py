@@ -18,7 +18,8 @@ CATALOGUE = {
         "max_overlap": "", "max_particle_speed": "m/s", "slug_top": "m", "slug_spread": "m",
         "contacts_with_surface": "", "foam_element_quality": "", "foam_stable_step": "s", "prescribed_pressure": "Pa",
         "circumferential_share": "", "circumferential_impulse": "N s", "circumferential_work": "J",
-        "work_on_surface": "J", "work_on_particles": "J"},
+        "work_on_surface": "J", "work_on_particles": "J", "surface_speed_ratio": "",
+        "surface_speed_departure": ""},
 }
 
 

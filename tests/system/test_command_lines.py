@@ -60,11 +60,44 @@ class CommandLines(unittest.TestCase):
         self.refused("grainstep", "run", QUICK, "--external", "impactor", "structure", text="'structure' is one word too many")
 
     def test_values_of_options(self):
-        self.refused("grainstep", "run", QUICK, "--step-deadline", "0", text="--step-deadline: '0' is no number above 0")
+        self.refused("grainstep", "run", QUICK, "--step-deadline", "0", text="--step-deadline: '0' is no number of seconds above 0")
+        self.refused("grainstep", "run", QUICK, "--step-deadline", "1e10", text="'1e10' is no number of seconds above 0 and up to")
         self.refused("grainstep", "run", QUICK, "--ranks", "two", text="--ranks: ")
-        self.refused("grainstep-fe", "--connect", "ipc:///x", "--connect-deadline", "-1", text="'-1' is no number above 0")
+        self.refused("grainstep-fe", "--connect", "ipc:///x", "--connect-deadline", "-1", text="'-1' is no number of seconds above 0")
         self.refused("grainstep", "study", STUDY, "--reuse", "nowhere", text="--reuse nowhere: no such directory", lines=1)
         self.refused("grainstep", "check", SOURCE, text="a directory, expected a file", lines=1)
+
+    def test_a_pipe_is_no_scene(self):
+        """Whoever opens one waits for its other end."""
+        with tempfile.TemporaryDirectory() as place:
+            pipe, scene = pathlib.Path(place) / "pipe.yaml", pathlib.Path(place) / "scene.yaml"
+            os.mkfifo(pipe)
+            scene.write_text("include: pipe.yaml\n")
+            self.refused("grainstep", "check", pipe, text="not a readable file", lines=1)
+            self.refused("grainstep", "check", scene, text="scene.yaml:1: include: cannot read", lines=1)
+
+    def test_folders_in_path_that_cannot_be_looked_into_hold_nothing(self):
+        with tempfile.TemporaryDirectory() as place:
+            said = subprocess.run([BIN / "grainstep", "run", QUICK, "--set", "time.end=0.001", "--quiet", "--out", f"{place}/run"],
+                                  capture_output=True, text=True, timeout=PATIENCE,
+                                  env={**os.environ, "PATH": f"/{'x' * 300}:{os.environ['PATH']}"})
+            self.assertEqual(said.returncode, 0, said.stderr)
+
+    def test_too_few_descriptors_or_too_little_memory_is_said_before_anything_begins(self):
+        def limited(limit, program=("grainstep", "run", QUICK, "--set", "time.end=0.001", "--out", self.place / "run")):
+            words = [BIN / program[0], *map(str, program[1:])]
+            return subprocess.run(["sh", "-c", f'ulimit {limit} && exec "$@"', "sh", *words], capture_output=True,
+                                  text=True, timeout=PATIENCE)
+        for limit, text in (("-n 5", "no more open files (the limit is 5)"), ("-n 8", "open files"), ("-n 20", "open files"),
+                            ("-n 40", "Raise it: ulimit -n"), ("-v 100000", "too little memory (the limit is 97 MiB"),
+                            ("-v 240000", "too little memory"), ("-v 500000", "Raise it: ulimit -v")):
+            said = limited(limit)
+            self.assertEqual(said.returncode, 2, (limit, said.stderr))
+            self.assertIn(text, said.stderr)
+            self.assertEqual(list(self.place.iterdir()), [])
+            participant = limited(limit, ("grainstep-fe", "--connect", "ipc:///nowhere/at-all", "--connect-deadline", "1"))
+            self.assertEqual(participant.returncode, 2, (limit, participant.stderr))
+            self.assertIn(text, participant.stderr)
 
     def test_a_study_is_no_scene_and_a_scene_no_study(self):
         for command in ("run", "check"):

@@ -9,7 +9,7 @@ from runs import (BIN, LONG, PATIENCE, QUICK, SOURCE, Run, datasets, descendants
 KEYS = ["status", "reason", "exit_code", "impulse_number", "areal_mass_ratio", "loading_time_ratio", "peak_deflection",
         "peak_deflection_time", "peak_deflection_seconds", "final_deflection", "final_deflection_spread", "final_time",
         "final_seconds", "transmitted_impulse", "early_pressure", "peak_core_compression",
-        "peak_core_compression_time", "energy_drift", "momentum_error", "ledgers", "particles", "impactor_elements", "elements", "impactor_steps",
+        "peak_core_compression_time", "energy_drift", "momentum_error", "ledgers", "recorded_load", "particles", "impactor_elements", "elements", "impactor_steps",
         "structure_steps", "impactor_step", "structure_step", "path", "threads", "wall_seconds", "wall_split",
         "processor_seconds", "scene_key", "results_version"]
 SPLIT = ["impactor_compute", "impactor_wait", "structure_compute", "structure_wait", "orchestrator"]

@@ -224,14 +224,15 @@ TEST_P(HandPlayedCopies, WaitForTheirTurn) {
   structure_.messages_->send(report(2));
   LockStep steps(hub_, witness_, start_, grainstep::testing::patience_s);
   bool heard_nothing_more = false;
-  steps.save_when([&] {  // asked before the first wait: what the structure said has been looked at
-    if (std::exchange(heard_nothing_more, true)) return false;
-    for (const std::uint64_t window : {0, 1, 2}) {
-      impactor_.data().send(forces(window));
-      if (window != 1) impactor_.messages_->send(report(window));
-    }
-    return false;
-  });
+  steps.save_when(
+      [&](std::uint64_t /*window*/) {  // asked before the first wait: what the structure said has been looked at
+        if (std::exchange(heard_nothing_more, true)) return false;
+        for (const std::uint64_t window : {0, 1, 2}) {
+          impactor_.data().send(forces(window));
+          if (window != 1) impactor_.messages_->send(report(window));
+        }
+        return false;
+      });
   // They could be saved, or nobody would ask.
   for (Peer* peer : {&hub_.impactor(), &hub_.structure()}) peer->hello.add_capabilities("state");
   EXPECT_EQ(text_of_end([&steps] { steps.run(); }), "");

@@ -68,28 +68,51 @@ TEST(Resume, AnotherBuildIsRefusedUnlessTheSameBitsAreNotNeeded) {
 
 TEST(SaveSchedule, WithoutATimeOnlyWhatIsAskedFor) {
   SaveSchedule schedule(0.0);
-  EXPECT_FALSE(schedule.due());
+  EXPECT_FALSE(schedule.due(1));
   schedule.save_now();
-  EXPECT_TRUE(schedule.due());
-  EXPECT_FALSE(schedule.due());
+  EXPECT_TRUE(schedule.due(1));
+  EXPECT_FALSE(schedule.due(1));
 }
 
 TEST(SaveSchedule, EverySoManySeconds) {
   SaveSchedule often(1e-9);
-  EXPECT_TRUE(often.due());
-  EXPECT_TRUE(often.due());
+  EXPECT_TRUE(often.due(1));
+  EXPECT_TRUE(often.due(1));
   SaveSchedule seldom(1e9);
-  EXPECT_FALSE(seldom.due());
+  EXPECT_FALSE(seldom.due(1));
+}
+
+TEST(SaveSchedule, SpreadOverTheWindowsOfARun) {
+  const auto saved = [](std::uint64_t done) {
+    SaveSchedule schedule(0.0);
+    schedule.spread(3, 100, done);
+    std::vector<std::uint64_t> windows;
+    for (std::uint64_t window = done + 1; window <= 100; ++window) {
+      if (schedule.due(window)) windows.push_back(window);
+    }
+    return windows;
+  };
+  EXPECT_THAT(saved(0), testing::ElementsAre(25, 50, 75, 100));
+  EXPECT_THAT(saved(50), testing::ElementsAre(75, 100)) << "a run that goes on";
+}
+
+TEST(SaveSchedule, SeveralMarksThatPassUnaskedAreOneCheckpoint) {
+  SaveSchedule schedule(0.0);
+  schedule.spread(9, 100, 0);
+  EXPECT_FALSE(schedule.due(9));
+  EXPECT_TRUE(schedule.due(37));
+  EXPECT_FALSE(schedule.due(39));
+  EXPECT_TRUE(schedule.due(40));
 }
 
 TEST(SaveSchedule, AnEndFromOutsideWaitsForOneMoreCheckpoint) {
   SaveSchedule schedule(0.0);
   schedule.written();
   schedule.end_after_next();
-  EXPECT_TRUE(schedule.due());
-  EXPECT_FALSE(schedule.due()) << "asked once";
+  EXPECT_TRUE(schedule.due(1));
+  EXPECT_FALSE(schedule.due(1)) << "asked once";
   schedule.written();
-  EXPECT_THROW(static_cast<void>(schedule.due()), Interrupted);
+  EXPECT_THROW(static_cast<void>(schedule.due(1)), Interrupted);
 }
 
 }  // namespace

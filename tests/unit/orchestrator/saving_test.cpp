@@ -52,7 +52,7 @@ class HandPlayedSaving : public HandPlayed {
   std::string run_saving(const std::function<void()>& then, double silence_s = grainstep::testing::patience_s) {
     LockStep steps(hub_, witness_, start_, silence_s, listener_.get());
     bool wanted = false;
-    steps.save_when([&] {
+    steps.save_when([&](std::uint64_t /*window*/) {
       if (std::exchange(wanted, true)) return false;
       then();
       return true;
@@ -107,7 +107,7 @@ TEST_P(HandPlayedSaving, AStateMayOvertakeTheForcesThatAskForIt) {
   start_.set_report_every(2);
   LockStep steps(hub_, witness_, start_, grainstep::testing::patience_s, listener_.get());
   int turn = 0;
-  steps.save_when([&] {
+  steps.save_when([&](std::uint64_t /*window*/) {
     if (++turn == 1) {
       impactor_.data().send(forces(0));
       impactor_.data().send(marked(1));
