@@ -61,9 +61,10 @@ class Replayed(unittest.TestCase):
     def test_recording_changes_nothing(self):
         run = ended(self, *NATIVE)
         self.assertFalse((run.out / "surface.h5").exists())
-        for name, value in datasets(run.out / "results.h5").items():
-            if not name.startswith("scene/"):
-                self.assertEqual(value, datasets(self.whole.out / "results.h5")[name], name)
+        ours, whole = ({name: value for name, value in datasets(out / "results.h5").items()
+                        if not name.startswith("scene/")} for out in (run.out, self.whole.out))
+        self.assertGreater(len(ours), 500)
+        self.assertEqual(ours, whole)
 
     def test_the_record_opens_in_h5py(self):
         with h5py.File(self.whole.out / "surface.h5") as file:
