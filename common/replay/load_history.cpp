@@ -30,6 +30,7 @@ surface::Vec2 node(const wire::Surface& surface, int index) {
 
 surface::Polyline polyline_of(const wire::Surface& surface) {
   std::vector<surface::Vec2> nodes;
+  nodes.reserve(static_cast<std::size_t>(surface.position_size() / 2));
   for (int i = 0; i < surface.position_size() / 2; ++i) nodes.push_back(node(surface, i));
   std::vector<surface::Polyline::Segment> segments;
   for (int i = 0; i + 1 < surface.facet_size(); i += 2) segments.push_back({surface.facet(i), surface.facet(i + 1)});

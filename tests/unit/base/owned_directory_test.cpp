@@ -99,7 +99,7 @@ TEST(OwnedDirectory, WhatIsNoneIsLeftAlone) {
     return path;
   };
   const auto marked = [&](const fs::path& path) {
-    std::ofstream(made(path) / "of-a-process-of-grainstep");
+    std::ofstream(made(path) / "of-a-process-of-grainstep") << "";
     return path;
   };
   const fs::path of_a_user = made(parent.path() / "grainstep-aaaaaa");

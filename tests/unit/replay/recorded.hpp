@@ -70,7 +70,8 @@ inline wire::Kinematics kinematics(std::uint64_t n) {
   wire::Kinematics out;
   out.set_window(n);
   for (std::size_t i = 0; i < values; ++i) {
-    out.add_position(i % 2 == 0 ? static_cast<double>(i / 2) : height);
+    const std::size_t node = i / 2;
+    out.add_position(i % 2 == 0 ? static_cast<double>(node) : height);
     out.add_velocity(i % 2 == 0 ? 0.0 : velocity(n));
   }
   return out;
