@@ -38,6 +38,19 @@ class Replayed(unittest.TestCase):
     def tearDownClass(cls):
         cls.whole.__exit__()
 
+    def killed_and_resumed(self, *options):
+        """A run that lost its orchestrator after a checkpoint, and went on to its end."""
+        run = Run(*options)
+        self.addCleanup(run.__exit__)
+        until(lambda: list((run.out / "checkpoints").glob("*.checkpoint")) or run.process.poll() is not None,
+              "a checkpoint")
+        run.process.send_signal(signal.SIGKILL)
+        run.end(AT_ONCE)
+        done = subprocess.run([BIN / "grainstep", "resume", run.out, "--quiet"], capture_output=True, text=True,
+                              timeout=WHOLE_RUN, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return run
+
     def test_the_structure_gives_the_same_bits(self):
         for path in ("hub", "shared", "direct"):
             run = ended(self, *played("impactor", self.whole.out), "--path", path)
@@ -85,30 +98,16 @@ class Replayed(unittest.TestCase):
     def test_a_record_goes_on_with_its_run(self):
         fine = (*NATIVE, *RECORD, "--set", "impactor.slug.particle.diameter='1 mm'", "--set", "output.checkpoints=4")
         whole = ended(self, *fine)
-        with Run(*fine) as run:
-            until(lambda: list((run.out / "checkpoints").glob("*.checkpoint")) or run.process.poll() is not None,
-                  "a checkpoint")
-            run.process.send_signal(signal.SIGKILL)
-            run.end(AT_ONCE)
-            done = subprocess.run([BIN / "grainstep", "resume", run.out, "--quiet"], capture_output=True, text=True,
-                                  timeout=WHOLE_RUN, check=False)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            for file in ("surface.h5", "results.h5"):
-                self.assertEqual(datasets(run.out / file), datasets(whole.out / file), file)
+        run = self.killed_and_resumed(*fine)
+        for file in ("surface.h5", "results.h5"):
+            self.assertEqual(datasets(run.out / file), datasets(whole.out / file), file)
 
     def test_a_replay_goes_on_from_its_checkpoint(self):
         played_ = (*played("impactor", self.whole.out), "--set", "structure.mesh.refinement=8", "--set",
                    "output.checkpoints=9")
         whole = ended(self, *played_)
-        with Run(*played_) as run:
-            until(lambda: list((run.out / "checkpoints").glob("*.checkpoint")) or run.process.poll() is not None,
-                  "a checkpoint")
-            run.process.send_signal(signal.SIGKILL)
-            run.end(AT_ONCE)
-            done = subprocess.run([BIN / "grainstep", "resume", run.out, "--quiet"], capture_output=True, text=True,
-                                  timeout=WHOLE_RUN, check=False)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(datasets(run.out / "results.h5"), datasets(whole.out / "results.h5"))
+        run = self.killed_and_resumed(*played_)
+        self.assertEqual(datasets(run.out / "results.h5"), datasets(whole.out / "results.h5"))
 
     def test_what_cannot_be_played_is_said_before_anything_starts(self):
         for options, said in ((played("impactor", "/nowhere"), "impactor.replay.file: /nowhere: no such file"),
