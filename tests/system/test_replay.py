@@ -89,7 +89,14 @@ class Replayed(unittest.TestCase):
             areal = 2 * 1e-3 * 0.02  # half width 20 mm, depth 1 mm, both halves
             self.assertGreater(given / areal, 0)
 
-    def test_both_are_no_run(self):
+    def test_a_record_is_replaced_and_removed_with_its_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder) / "run"
+            for options, there in ((RECORD, True), (RECORD, True), ((), False)):
+                ended(self, *NATIVE, *options, "--set", "time.end=0.01", "--force", out=out)
+                self.assertEqual((out / "surface.h5").exists(), there)
+
+    def test_both_sides_can_be_played(self):
         with Run(*played("impactor", self.whole.out), *played("structure", self.whole.out)) as run:
             run.end()
             self.assertEqual(run.code, 0, run.stderr)
