@@ -16,7 +16,6 @@
 #include "orchestrator/session/session.hpp"
 #include "results/atomic_file.hpp"
 #include "results/checkpoints.hpp"
-#include "scene/needs.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -163,17 +162,8 @@ class Run {
   }
 
   void begin_record() {
-    const scene::Scene& scene = how_.preparation.scene;
-    if (!scene.output().record()) return;
-    record::About about;
-    about.set_title(scene.title());
-    about.set_scene_hash(how_.preparation.hash);
-    about.set_symmetry(scene.symmetry());
-    about.set_depth(scene.depth());
-    about.set_mirror(scene::has_mirror(scene));
-    about.set_dimension(scene::surface_dimension(scene));
-    about.set_window(plan_->window);
-    if (scene::has_slug(scene)) about.set_impactor_speed(scene.impactor().slug().speed());
+    if (!how_.preparation.scene.output().record()) return;
+    record::About about = about_record(how_.preparation.scene, how_.preparation.hash, plan_->window);
     *about.mutable_impactor() = hub_.impactor().ready;
     *about.mutable_structure() = hub_.structure().ready;
     if (how_.resume != nullptr) {

@@ -8,6 +8,8 @@
 #include "base/error.hpp"
 #include "ledger/ledger.hpp"
 #include "replay/format.hpp"
+#include "scene/groups.hpp"
+#include "scene/needs.hpp"
 
 namespace grainstep::orchestrator {
 namespace {
@@ -35,6 +37,19 @@ results::Contents contents_after(std::uint64_t window) {
 }
 
 }  // namespace
+
+record::About about_record(const scene::Scene& scene, std::uint64_t hash, double window) {
+  record::About about;
+  about.set_title(scene.title());
+  about.set_scene_hash(hash);
+  about.set_symmetry(scene.symmetry());
+  about.set_depth(scene.depth());
+  about.set_mirror(scene::has_mirror(scene));
+  about.set_dimension(scene::surface_dimension(scene));
+  about.set_window(window);
+  if (scene::has_slug(scene)) about.set_impactor_speed(scene.impactor().slug().speed());
+  return about;
+}
 
 SurfaceRecord::SurfaceRecord(const std::filesystem::path& file, const record::About& about)
     : about_(about), file_(file, {{dataset::about, "what was recorded, as JSON (record.proto)", json_of(about)}}) {

@@ -6,11 +6,15 @@
 #include <filesystem>
 
 #include "grainstep/record.pb.h"
+#include "grainstep/scene.pb.h"
 #include "grainstep/wire.pb.h"
 #include "results/results_file.hpp"
 #include "transport/channel.hpp"
 
 namespace grainstep::orchestrator {
+
+/// What a record says of its scene; what both sides said is still to be added. `window`: s.
+[[nodiscard]] record::About about_record(const scene::Scene& scene, std::uint64_t hash, double window);
 
 class SurfaceRecord {
  public:
